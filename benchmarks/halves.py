@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.graph import PoseGaussian, Quadratic, normal_equations
+from bayesmap.poses.graph import PoseStudentT, Quadratic, normal_equations
 from bayesmap.poses.trajectory import InferredTrajectory
 from bayesmap.space.scans import Scans
 
@@ -44,11 +44,11 @@ class _Dense:
 
 
 @dataclass(frozen=True, eq=False)
-class _LaserAlone(PoseGaussian):
+class _LaserAlone(PoseStudentT):
     """A Gaussian of which the first so many parts are the laser's; covariances are what their errors make."""
 
     laser: int = 0
-    of_all: PoseGaussian | None = None
+    of_all: PoseStudentT | None = None
 
     @cached_property
     def bends(self) -> Floats:

@@ -1,7 +1,5 @@
 """Recordings of a simulated robot, by rosbags' and mcap's writers; each serialises plain dictionaries in its way."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 from pathlib import Path

@@ -102,7 +102,8 @@ def log_joint(walls, p_wall=P_WALL):
 # readings*. A cell has only two states, so this conditional distribution is easy to compute: score the map with the
 # cell as a wall and with the cell free, and compare. One pass over all cells is a *sweep*, and the maps after each
 # sweep are a *chain*. From any start, the maps after many sweeps are nearly draws from the posterior, each like the
-# one before. How many are many, see *Where walls are rare*.
+# one before. How many sweeps it takes depends on the posterior: in *Where walls are rare* a chain is stuck for
+# hundreds of sweeps. R-hat and effective sample sizes, on the next page, tell such chains from good ones.
 
 # %%
 
@@ -211,6 +212,7 @@ def edit_sweep(request, key, trace, order=RASTER):
 
     def update(k, trace):
         walls = trace.get_choices()["walls"]
+        # These edits draw nothing, so the key is used once.
         flipped, change, _, _ = trace.edit(keys[k], request(walls, *order[k]), None)
         return jax.lax.cond(gen.bernoulli.sample(keys[k], logits=change), lambda: flipped, lambda: trace)
 

@@ -7,8 +7,6 @@ draw of the approximation. Chains correct details; the bend of a long loop stays
 Read `infer` and then `Inference.run`, which fits the sensor, runs the chains and returns the run.
 """
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Callable
@@ -166,7 +164,7 @@ def slam(
 
 
 def estimate_slam(
-    log: Scans, resolution: float, laws: ChosenLaws, fast: bool | None, no_odometry: bool, schedule: Schedule,
+    log: Scans, resolution: float, laws: "ChosenLaws", fast: bool | None, no_odometry: bool, schedule: Schedule,
     where: Where,
 ) -> Estimate | None:  # fmt: skip
     """Estimate time and memory of `slam` from the poses of the log; None if they allow no map."""
@@ -228,7 +226,7 @@ class Inference:
     def of(
         cls, scans: Scans, grid: Grid, laws: ChosenLaws, method: Method | str | None, schedule: Schedule, seed: int,
         where: Where,
-    ) -> Inference:  # fmt: skip
+    ) -> "Inference":  # fmt: skip
         """Check the arguments of `infer`, and fill in the defaults of the kind of cells."""
         need_value("infer", "schedule", schedule, Schedule)
         need_value("infer", "where", where, Where)
@@ -308,7 +306,7 @@ class Inference:
         return as_run(executor.run(job, earlier, watch, on_checkpoint, checkpoints.every_s))
 
     def _fit_model(
-        self, clock: _RunClock, settings: dict[str, Any], stopped: Posterior | None, watch: Watch
+        self, clock: "_RunClock", settings: dict[str, Any], stopped: Posterior | None, watch: Watch
     ) -> tuple[Model, Parameters | None]:
         """Fit sensor and prior where asked for. Returns the model of the chains, and the parameters of a pilot."""
         model = self.model

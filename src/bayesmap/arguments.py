@@ -3,8 +3,6 @@
 `Schedule` says how long chains run, `Where` on which threads and devices, and `Checkpoints` what is resumed and saved.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -66,7 +64,7 @@ class Schedule:
         if self.seconds is not None and not self.seconds > 0:
             raise BadInput(f"Schedule: seconds must be a positive number, such as 60, got {self.seconds!r}")
 
-    def completed(self, sweeps_a_draw: int, default_draws: Callable[[int], int]) -> Schedule:
+    def completed(self, sweeps_a_draw: int, default_draws: Callable[[int], int]) -> "Schedule":
         """Return the schedule with ``thin``, ``draws`` and ``precision``, by the defaults of the kind of cells."""
         default_thin = sweeps_a_draw if self.draws is None else 1
         thin = default_thin if self.thin is None else self.thin
@@ -124,12 +122,12 @@ class Checkpoints:
     Raises `BadInput` for an object that is no run, a callback that is no function, or a negative number of seconds.
     """
 
-    resume: Run | None = None
-    save: Callable[[Run], None] | None = None
+    resume: "Run | None" = None
+    save: "Callable[[Run], None] | None" = None
     every_s: float = CHECKPOINT_S
     stages: str | os.PathLike[str] | None = None
-    preview: Callable[[Run], None] | None = None
-    trajectory: Callable[[InferredTrajectory], None] | None = None
+    preview: "Callable[[Run], None] | None" = None
+    trajectory: "Callable[[InferredTrajectory], None] | None" = None
 
     def __post_init__(self) -> None:
         if self.resume is not None and not hasattr(self.resume, "posterior"):

@@ -14,8 +14,6 @@ with the sensor's law p(z | d, s) (`bayesmap.sensors.model`). Binary walls are t
 double precision, for all kinds of cells. It is slow, and serves to test samplers.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 

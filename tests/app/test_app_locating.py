@@ -15,7 +15,7 @@ from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import DrawCount
 from bayesmap.app.protocol.tasks import GridChanged, Infer, Ready, TrajectoryInferred, TrajectoryState
 from bayesmap.app.protocol.wire import parse_document
-from bayesmap.app.shown.hit_maps import MAX_SCANS, grow_grid, hit_count_map, thin_scans
+from bayesmap.app.shown.hit_maps import MAX_SCANS, evenly_chosen_scans, grow_grid, hit_count_map
 from bayesmap.app.sources import open_log
 from bayesmap.app.trajectory import ASK_TO_RUN, STAGE_TEXTS, TrajectoryJob, move_to_trajectory
 from bayesmap.poses.slam import sort_by_time
@@ -203,7 +203,7 @@ def test_the_map_only_grows_and_on_the_same_lattice():
     assert (y0, y1) == pytest.approx(grid.extent_m[2:])
     assert (grid.origin[0] - x0) / 0.1 == pytest.approx(round((grid.origin[0] - x0) / 0.1))
     assert hit_count_map(away, larger).observed().sum() > 1000
-    assert len(thin_scans(raw_scans().select(np.arange(2000) % len(raw_scans())))) == MAX_SCANS
+    assert len(evenly_chosen_scans(raw_scans().select(np.arange(2000) % len(raw_scans())))) == MAX_SCANS
 
 
 def test_the_session_takes_over_the_grid_and_keeps_the_trajectory_for_the_next_worker():
@@ -228,7 +228,8 @@ def test_the_session_takes_over_the_grid_and_keeps_the_trajectory_for_the_next_w
 def test_a_link_to_a_log_that_was_inferred_fits_the_log_as_it_is_opened():
     inferred = replace(raw_log().document.on_grid(Grid((30, 40), 0.1)), sweeps=77)
     brought = parse_document({**inferred.to_json(), "walls": ""})
-    assert adopt_document(raw_log().document, brought).sweeps == 77
+    adopted = adopt_document(raw_log().document.with_scans_used(3), brought)
+    assert (adopted.sweeps, adopted.scans_used) == (77, None)
     assert adopt_document(raw_log().document, brought).grid == raw_log().document.grid
     as_logged = [replace(document, poses="logged") for document in (raw_log().document, brought)]
     with pytest.raises(Refused):

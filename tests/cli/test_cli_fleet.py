@@ -13,7 +13,7 @@ from shell import assert_same_draws, call, refusal_of, succeed
 from tiers import full_but
 
 import bayesmap as bm
-from bayesmap.cli import infer, pipeline
+from bayesmap.cli import fleet_on_ray, pipeline
 from bayesmap.cli.folder import Folder
 
 pytestmark = [
@@ -73,7 +73,7 @@ def test_a_folder_of_logs_is_inferred_on_a_cluster(logs, tmp_path, alone, cluste
 
 def at_first_checkpoint(monkeypatch, act, on_ray):
     """Do something at the first checkpoint; returns a list that has an entry as soon as it is done."""
-    keeper, name = (infer.RayFleet, "store") if on_ray else (Folder, "checkpoint")
+    keeper, name = (fleet_on_ray.RayFleet, "store") if on_ray else (Folder, "checkpoint")
     keep, done = getattr(keeper, name), []
 
     def keep_and_act(self, *given):
@@ -89,7 +89,7 @@ def at_first_checkpoint(monkeypatch, act, on_ray):
 def interrupt_the_first(monkeypatch, on_ray):
     """Press Ctrl-C at the first checkpoint, when the other log has not begun."""
     at_first_checkpoint(monkeypatch, lambda: os.kill(os.getpid(), signal.SIGINT), on_ray)
-    monkeypatch.setattr(infer.RayFleet, "max_at_once", lambda self, entry: 1)
+    monkeypatch.setattr(fleet_on_ray.RayFleet, "max_at_once", lambda self, entry: 1)
 
 
 @pytest.mark.full
@@ -119,8 +119,8 @@ def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, 
             at.append((match[1], int(match[2].replace(",", ""))))
             os.kill(os.getpid(), signal.SIGINT)
 
-    monkeypatch.setattr(infer, "share_bar", lambda console, begin: contextlib.nullcontext(show))
-    monkeypatch.setattr(infer, "STOP_S", 120.0)
+    monkeypatch.setattr(fleet_on_ray, "share_bar", lambda console, begin: contextlib.nullcontext(show))
+    monkeypatch.setattr(fleet_on_ray, "STOP_S", 120.0)
     pair, options = (logs / "east.log", logs / "west.log"), (*short, "--executor", "ray", "--checkpoint-every", 3600)
     told = refusal_of("infer", *pair, "-o", tmp_path / "runs", *options, "--draws 4000", code=130)
     assert "stopping: what the workers have is fetched" in told
@@ -139,7 +139,7 @@ def test_the_mailbox_that_tells_workers_of_ctrl_c_is_on_the_commands_own_node(cl
 
     cluster.complete()
     here = ray.get_runtime_context().get_node_id()
-    mailboxes = [infer.RayFleet(None, None).mailbox for _ in range(8)]
+    mailboxes = [fleet_on_ray.RayFleet(None, None).mailbox for _ in range(8)]
     where = [box.__ray_call__.remote(lambda box: ray.get_runtime_context().get_node_id()) for box in mailboxes]
     assert set(ray.get(where)) == {here}
     for mailbox in mailboxes:
@@ -158,7 +158,7 @@ def test_words_of_ray_after_the_run_are_not_in_the_document(logs, tmp_path, shor
 
         return wrapped
 
-    of, name = (infer.FleetLog, "as_json") if several else (pipeline, "report")
+    of, name = (fleet_on_ray.FleetLog, "as_json") if several else (pipeline, "print_report")
     monkeypatch.setattr(of, name, and_print(getattr(of, name)))
     given = (logs / "east.log", logs / "west.log")[: 2 if several else 1]
     result = succeed("infer", *given, "-o", tmp_path / "runs", "--json", *short, "--executor ray")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from shell import call, json_of, refusal_of, succeed
 
-from bayesmap.cli.decisions import _view_line, distinguishable
+from bayesmap.cli.decisions import _view_line, format_apart_from
 from bayesmap.io.logs import read_log
 from bayesmap.posterior.route import is_within_risk
 from bayesmap.result import Run, load
@@ -66,8 +66,8 @@ def test_a_risk_that_no_path_keeps_is_warned_of(plan, tmp_path, risk):
 
 
 def test_a_risk_is_told_from_its_bound_and_rounding_is_no_risk():
-    assert distinguishable(0.010004, 0.01) == "0.010004"
-    assert distinguishable(0.25, 0.01) == "0.25"
+    assert format_apart_from(0.010004, 0.01) == "0.010004"
+    assert format_apart_from(0.25, 0.01) == "0.25"
     assert is_within_risk(0.99, 0.01)  # 1 - 0.99 > 0.01 in floating point
     assert not is_within_risk(0.98999, 0.01)
 

@@ -14,7 +14,7 @@ from tiers import full_but
 import bayesmap as bm
 import bayesmap.api
 from bayesmap.cli.console import Console
-from bayesmap.cli.pipeline import report
+from bayesmap.cli.pipeline import print_report
 from bayesmap.cli.slam import _doubtful, _good, _notes
 from bayesmap.io.text.trajectories import read_trajectory
 from bayesmap.poses.slam import infer_trajectory
@@ -43,7 +43,7 @@ def test_the_folder_holds_map_trajectory_covariances_and_pictures(slam_run, raw_
 def test_the_end_says_what_is_good_then_what_is_doubtful_then_what_to_do(slam_run, capsys):
     document = slam_run[1]
     told = {**document["trajectory"], "flagged": [7], "breaks": [9]}
-    report(Console(), document, good=_good(told), doubtful=_doubtful(told), commands=[["app", "a b.nc"]])
+    print_report(Console(), document, good=_good(told), doubtful=_doubtful(told), commands=[["app", "a b.nc"]])
     lines = capsys.readouterr().err.splitlines()[1:]
     kinds = ["warning" if "warning" in line else line.split(":")[0] for line in lines]
     assert kinds == sorted(kinds, key=["good", "warning", "next", "  bayesmap app 'a b.nc'"].index)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from bayesmap.poses.calibration import ORDINARY_RATES, MotionNoise, OdometryFit
-from bayesmap.poses.graph import Factors, PoseGaussian
+from bayesmap.poses.graph import Factors, PoseStudentT
 from bayesmap.poses.trajectory import Calibration, InferredTrajectory, LoopClosures
 from bayesmap.space.planar import between, chain_motions, compose
 
@@ -21,7 +21,7 @@ def round_way(keys=16, sigma=(0.01, 0.02, 0.005), closure=True, odometry=True, f
     relative = between(poses[first], poses[second])
     information = np.tile(np.diag(np.array(sigma) ** -2.0), (len(first), 1, 1))
     pulls = np.random.default_rng(seed).normal(size=(len(first), 3)) * force
-    gaussian = PoseGaussian(poses, first, second, relative, information, pulls)
+    gaussian = PoseStudentT(poses, first, second, relative, information, pulls)
     scans = keys + 1
     at = np.delete(np.arange(scans), 1)
     every = np.insert(poses, 1, compose(poses[0], STEP / 2), axis=0)

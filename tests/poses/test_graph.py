@@ -12,7 +12,7 @@ from simulated import ring, scans_of
 import bayesmap as bm
 from bayesmap.poses import graph
 from bayesmap.poses.alignment import Alignment, Pairs, PointError, place_scans
-from bayesmap.poses.graph import Factors, PoseGaussian, bend_covariances, normal_equations, quadratic
+from bayesmap.poses.graph import Factors, PoseStudentT, bend_covariances, normal_equations, quadratic
 from bayesmap.poses.key_alignment import flag_unexplained
 from bayesmap.poses.map_scans import select_key_scans
 from bayesmap.poses.odometry_factors import compose_factors
@@ -133,7 +133,7 @@ def aligned(seed, *, in_common):
     for _ in range(5):
         relative = between(poses[first], poses[second])
         force = np.einsum("mij,mj->mi", curvature, relative - measured)
-        gaussian = PoseGaussian(poses, first, second, relative, curvature, force)
+        gaussian = PoseStudentT(poses, first, second, relative, curvature, force)
         poses = compose(poses, graph.solve_step(POSES, [graph.Quadratic(first, second, relative, curvature, force)])[0])
     return truth, gaussian
 
@@ -179,7 +179,7 @@ def corridor(*, seen_m):
     curvature = np.tile(np.diag([1e4, 1e4, 1e6]), (STEPS + 1, 1, 1))
     curvature[0] = np.diag([seen_m**-2.0, 1.0, 1.0])
     relative = between(poses[first], poses[second])
-    gaussian = PoseGaussian(poses, first, second, relative, curvature, np.zeros((STEPS + 1, 3)))
+    gaussian = PoseStudentT(poses, first, second, relative, curvature, np.zeros((STEPS + 1, 3)))
     return replace(gaussian, by_odometry=gaussian.steps_from_changes(SCALE_SIGMA * relative[None, 1:])), gaussian
 
 

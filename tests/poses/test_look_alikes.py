@@ -5,7 +5,7 @@ import pytest
 from simulated import poses_along, worst_m
 
 from bayesmap.poses import key_graph, loops
-from bayesmap.poses.graph import Factors, PoseGaussian, optimise
+from bayesmap.poses.graph import Factors, PoseStudentT, optimise
 from bayesmap.poses.key_graph import _doubtful_visits, label_visits, twist_squares, weigh_visits
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
@@ -111,7 +111,7 @@ def test_covariances_and_draws_hold_the_alternative():
     parts = (poses, order, order + 1, between(poses[:-1], poses[1:]), curvature, force)
     step = np.zeros((1, 5, 3))
     step[0, 3:, 1] = np.sqrt(0.2) * 2.0  # probability 0.2, 2 m to the side
-    plain, other = PoseGaussian(*parts), PoseGaussian(*parts, elsewhere=step)
+    plain, other = PoseStudentT(*parts), PoseStudentT(*parts, elsewhere=step)
     before, after = (g.relative_scales([0, 1], [4, 2]) for g in (plain, other))
     expected = np.diag([0.0, 0.2 * 4.0, 0.0]) * other.scale_of_covariance
     np.testing.assert_allclose((after - before)[0], expected, atol=1e-9)

@@ -11,7 +11,7 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.kernels.match.likelihood_grid import next_level, next_level_on_cpu
-from bayesmap.kernels.match.line_pairs import PairRules, linearize_pairs
+from bayesmap.kernels.match.line_pairs import PairRules, linearise_pairs
 from bayesmap.kernels.match.view_comparison import Agreement, view_counts
 from bayesmap.poses import alignment
 from bayesmap.poses.alignment import Annealing, Pairs, PointError, align, overlapping_pairs, place_scans, point_error
@@ -225,7 +225,7 @@ def test_sums_equal_the_plain_formula(full, reach):
     for i, j in ((3, 1), (5, 2), (11, 8)):
         z = between(TRUTH[j], TRUTH[i]) + np.array([0.02, -0.03, 0.01])
         pair = np.array([i], np.int32), np.array([j], np.int32), z[None]
-        found_second, _, found_first, totals = linearize_pairs(geometry, None, *pair, PairRules(reach, SCALE, ALIKE))
+        found_second, _, found_first, totals = linearise_pairs(geometry, None, *pair, PairRules(reach, SCALE, ALIKE))
         second, first, cost = plain(geometry, i, j, z, reach)
         np.testing.assert_allclose(found_second[0], second, rtol=2e-3, atol=2e-2)
         np.testing.assert_allclose(found_first[0], first, rtol=2e-3, atol=2e-3)
@@ -243,7 +243,7 @@ def test_along_a_corridor_there_is_only_slack():
     noisy = np.where(exact < 8.0, exact, np.inf) + 0.01 * rng.normal(size=(40, 360))
     geometry = scan_geometry(bm.Scans(np.zeros((40, 3)), angles, noisy, max_range_m=10.0))
     one, two = np.arange(20, dtype=np.int32), np.arange(20, 40, dtype=np.int32)
-    second, slack, first, _ = linearize_pairs(geometry, None, one, two, np.zeros((20, 3)), PairRules(0.1, 0.05, 0.7))
+    second, slack, first, _ = linearise_pairs(geometry, None, one, two, np.zeros((20, 3)), PairRules(0.1, 0.05, 0.7))
     told, gradient = alignment.without_slack(second, slack, first, 0.01)
     along, across = second[:, 0, 0].mean(), second[:, 1, 1].mean()
     assert along < 1e-3 * across

@@ -7,7 +7,7 @@ import pytest
 from simulated import RESOLUTION, odometry_of, off, path_around, recording, ring, scans_of, worst_m
 from tiers import latin
 
-from bayesmap.kernels.match.line_pairs import PairRules, linearize_pairs
+from bayesmap.kernels.match.line_pairs import PairRules, linearise_pairs
 from bayesmap.kernels.match.view_comparison import Agreement, view_counts
 from bayesmap.kernels.walk import cast_beams
 from bayesmap.poses import calibration
@@ -165,7 +165,7 @@ def test_pairs_of_scans_match_as_well_with_angles_that_tremble(full):
     for geometry, at in ((a, poses), (b, turned)):
         wrong = compose(poses[some], error) - np.column_stack([np.zeros((len(some), 2)), poses[some, 2] - at[some, 2]])
         relative = between(at[some + 3], wrong)
-        totals.append(linearize_pairs(geometry, None, *pairs, relative, PairRules(0.2, 0.05, 0.7))[3])
+        totals.append(linearise_pairs(geometry, None, *pairs, relative, PairRules(0.2, 0.05, 0.7))[3])
         counts.append(view_counts(geometry, *pairs, relative, Agreement(0.1, 0.3, 180)))
     assert totals[0][:, 2].min() > 90
     # Which beam points nearest to a point is looked up to a quarter of a beam: that decides for a few points.

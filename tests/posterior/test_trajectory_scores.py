@@ -26,12 +26,12 @@ TRUTH = Relations(FIRST, SECOND, between(POSES[FIRST.astype(int)], POSES[SECOND.
 
 def test_the_true_trajectory_has_no_error_and_one_is_what_the_second_pose_is_off_by_in_its_own_frame():
     result = relation_errors(SECONDS, compose(np.array([3.0, -1.0, 2.0]), POSES), TRUTH)
-    np.testing.assert_allclose(result.errors, 0.0, atol=1e-12)
+    np.testing.assert_allclose(result.values, 0.0, atol=1e-12)
     assert result.covered.all()
     wrong = POSES.copy()
     wrong[5] = compose(wrong[5], np.array([0.3, 0.4, 0.1]))
     result = relation_errors(SECONDS, wrong, TRUTH)
-    np.testing.assert_allclose(result.errors[0], [0.3, 0.4, 0.1], atol=1e-12)
+    np.testing.assert_allclose(result.values[0], [0.3, 0.4, 0.1], atol=1e-12)
     np.testing.assert_allclose(result.translation_m, [0.5, 0.0, 0.0], atol=1e-12)
     summary = result.summary()
     assert summary["translation_m_mean"] == pytest.approx(0.5 / 3)
@@ -60,7 +60,7 @@ def test_times_between_poses_are_interpolated_but_not_across_a_gap_or_outside():
             relation_errors(SECONDS, POSES, off, exact=strictly)
     relations = Relations(np.array([0.05, -0.3]), np.array([0.2, 0.1]), np.zeros((2, 3)))
     result = relation_errors(0.1 * SECONDS, np.column_stack([SECONDS, SECONDS * 0, SECONDS * 0]), relations)
-    np.testing.assert_allclose(result.errors, [[1.5, 0.0, 0.0]])
+    np.testing.assert_allclose(result.values, [[1.5, 0.0, 0.0]])
     np.testing.assert_array_equal(result.covered, [True, False])
     assert result.summary()["not_covered"] == 1
 
@@ -118,7 +118,7 @@ def test_regions_of_right_covariances_hold_their_share_and_of_too_small_ones_les
     for level in LEVELS:
         assert score.coverage(level) == pytest.approx(level, abs=0.06)
     assert score.nees.mean() == pytest.approx(3.0, abs=0.4)
-    assert scipy.stats.kstest(score.region, "uniform").pvalue > 1e-4
+    assert scipy.stats.kstest(score.region_probability, "uniform").pvalue > 1e-4
     figures = score.as_json()
     assert figures["relations"] == 999
     assert figures["translation_m_mean"] > 0

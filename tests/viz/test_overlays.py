@@ -116,7 +116,7 @@ def test_strokes_are_drawn_at_once_as_opaque_as_they_are_likely():
 
 def test_arrays_that_are_no_surfaces_are_named():
     for means, covariances, weights, says in (
-        (np.zeros((2, 2)), np.zeros((1, 2, 2)), [1, 1], r"2 surfaces need .* got \(1, 2, 2\)"),
+        (np.zeros((2, 2)), np.zeros((1, 2, 2)), [1, 1], r"surfaces need .* got \(2, 2\) and \(1, 2, 2\)"),
         (np.zeros((1, 3)), np.zeros((1, 2, 2)), [1], r"means \(n, 2\)"),
         ([[0, np.nan]], np.zeros((1, 2, 2)), [1], "surface 0 is not finite"),
         (np.zeros((2, 2)), [np.eye(2), -np.eye(2)], [1, 1], "matrix 1 is no covariance"),
@@ -206,7 +206,8 @@ def test_a_route_is_named_and_drawn_over_the_map():
 
 def test_views_are_numbered_best_first():
     poses = np.column_stack([np.linspace(-1, 6, 8), np.full(8, 3.0), np.zeros(8)])
-    figure = views_figure(FLOOR, MEAN, None, candidates=poses, nats=np.arange(8.0), best=[7, 2], best_nats=[31.4, 20.0])
+    informative = {"information_nats": np.arange(8.0), "best": [7, 2], "bounds_nats": [31.4, 20.0]}
+    figure = views_figure(FLOOR, MEAN, None, candidates=poses, **informative)
     assert [text.get_text() for text in figure.axes[0].texts] == ["1", "2"]
     assert {"1: 31 nats at most", "2: 20 nats at most"} < set(labels(figure))
     assert [text.get_text() for text in figure.axes[1].get_yticklabels()] == ["least", "most"]
@@ -214,7 +215,7 @@ def test_views_are_numbered_best_first():
     assert figure.axes[0].texts[0].xy[0] == pytest.approx(6.0)
     assert png_of(figure)
     with pytest.raises(bm.BadInput, match="candidates"):
-        views_figure(FLOOR, MEAN, None, candidates=np.zeros((4, 3)), nats=np.zeros(3), best=[], best_nats=[])
+        views_figure(FLOOR, MEAN, None, candidates=poses[:4], **informative)
 
 
 def test_the_end_of_a_stray_beam_does_not_widen_the_picture():

@@ -11,7 +11,7 @@ import bayesmap as bm
 from bayesmap import viz
 from bayesmap.posterior.prediction import Predictor, fixed_maps
 from bayesmap.posterior.scores import score_prediction
-from bayesmap.viz.diagnostics import effective_sample_size, normalize_log_weights
+from bayesmap.viz.diagnostics import effective_sample_size, normalise_log_weights
 from bayesmap.viz.scores import MAX_POINTS, calibration_figure
 
 
@@ -141,10 +141,10 @@ def test_collapse_shows_as_one_sample_at_the_right():
     np.testing.assert_allclose(line.get_xdata(), 0.0, atol=1e-9)
 
     # Weights are normalised without overflow, and may be zero.
-    logs = normalize_log_weights(np.full(250, -12_345.0))
+    logs = normalise_log_weights(np.full(250, -12_345.0))
     np.testing.assert_allclose(logs, -np.log(250))
     assert effective_sample_size(logs) == pytest.approx(250)
-    np.testing.assert_allclose(np.exp(normalize_log_weights([-np.inf, 1e6, 1e6 + np.log(3)])), [0.0, 0.25, 0.75])
+    np.testing.assert_allclose(np.exp(normalise_log_weights([-np.inf, 1e6, 1e6 + np.log(3)])), [0.0, 0.25, 0.75])
     ax = viz.weights_figure([-np.inf, 0.0]).axes[0]
     viz.plot_weights(ax, np.log([1.0, 1.0, 2.0]), range_nats=(-5.0, 0.0))
     assert "largest weight: 50 % of the sum" in texts(ax)

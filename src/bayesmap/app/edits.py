@@ -4,8 +4,6 @@
 gesture (a stroke of the pen, or a drag), which arrive faster than pictures can be computed and painted.
 """
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar
@@ -223,8 +221,9 @@ def adopt_document(present: Document, other: Document) -> Document:
         if grid_is_inferred or other.grid == adopted.grid:
             fixed = present.source.fixed_settings
             settings = {name: getattr(other, name) for name in SETTINGS if name not in fixed}
-            n_used = settings.pop("scans_used", None)
-            return replace(adopted if n_used is None else adopted.with_scans_used(n_used), **settings)
+            if "scans_used" in settings:
+                adopted = adopted.with_scans_used(settings.pop("scans_used"))
+            return replace(adopted, **settings)
     names = ["a map that was drawn" if either.simulated else either.source.name for either in (present, other)]
     remedy = f"start bayesmap app {'without a file' if other.simulated else f'with {other.source.name}'}"
     raise Refused(f"this server shows {names[0]}, not {names[1]}", remedy)
@@ -239,7 +238,7 @@ class History(Generic[State]):
     future: tuple[tuple[State, Hashable], ...] = ()  # undone states, the next to redo last
     gesture: Hashable = None  # the stroke or drag of the last step, or None for a step by itself
 
-    def push(self, state: State, gesture: Hashable = None, author: Hashable = None) -> History[State]:
+    def push(self, state: State, gesture: Hashable = None, author: Hashable = None) -> "History[State]":
         """Return the history with a new state. Within one gesture, it replaces the present state."""
         if state == self.present:
             return self
@@ -247,14 +246,14 @@ class History(Generic[State]):
             return replace(self, present=state, future=())
         return History(state, (*self.past, (self.present, author))[-MAX_UNDO_STEPS:], (), gesture)
 
-    def undo(self) -> History[State]:
+    def undo(self) -> "History[State]":
         """Return the history one step back, or this history if there is no earlier state."""
         if not self.past:
             return self
         *past, (state, author) = self.past
         return History(state, tuple(past), (*self.future, (self.present, author)))
 
-    def redo(self) -> History[State]:
+    def redo(self) -> "History[State]":
         """Return the history one step forward, or this history if there is no undone state."""
         if not self.future:
             return self

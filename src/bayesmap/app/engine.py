@@ -6,7 +6,7 @@ hits in a log, "preview" belief propagation, "live" also chains after it, and "r
 
 A job depends on its document alone: the readings on its seed, the start of live chains on the beliefs from these
 readings, and every sweep's draws on (seed, chain, sweep, cell). So the same document gives the same posterior, however
-often edits interrupted the chains. The last state of earlier chains is therefore not used.
+often edits interrupted the chains. Chains continue only for an unchanged document; a changed one starts new chains.
 """
 
 import time
@@ -51,12 +51,12 @@ class Engine:
         self._waiting: list[Ask] = []  # questions that came before there was a result
         self._scan = 0  # index of the scan on show, for a file
         self._rest_until_s = 0.0  # time until which the job rests after a virtual scan
-        # The present job, or the last one if none is under way.
+        # State of the present job, or of the last one if none is under way.
         self._task: Infer | None = None
         self._job: Iterator[None] | None = None  # the steps that are left; None if no job is under way
         self._result: Result | None = None  # the result so far
         self._extra_sweeps = 0  # sweeps that the chains still have to add to those of the document
-        # What the next job may reuse.
+        # State of earlier jobs that the next job may reuse.
         self._earlier_result: Result | None = None  # the last result of the job before
         self._scene: Scene | None = None  # the readings of the last document
         self._scene_document: Document | None = None  # the document of the scene
@@ -147,13 +147,7 @@ class Engine:
         """Do a job; yield after each step."""
         document = replace(task.document, method=task.document.sampler)  # "auto" is resolved
         if document.source.kind == "run":
-            assert isinstance(self._opened, OpenedRun)
-            self._result = self._opened.result
-            self._scene, self._scene_document = self._result.scene, document
-            self._display.send_scan(self._scene, self._scan)
-            self._display.send_fields(self._result)
-            self._display.send_overlay(self._result)
-            self._display.send_finished(self._result)
+            self._show_saved_run(document)
             return
         # The trajectory, for a log from raw odometry.
         if document.from_odometry:
@@ -168,11 +162,11 @@ class Engine:
             self._display.send_finished(self._result)
             return
         # A run continues the chains of the job before, if they sample this document.
-        chains = self._earlier_chains_of(document) if task.mode == "run" else None
+        earlier_chains = self._earlier_chains_of(document) if task.mode == "run" else None
         self._earlier_result = None
-        if chains is not None:
-            chains.extend(document.sweeps)
-            yield from self._advance_to_end(scene, document, chains)
+        if earlier_chains is not None:
+            earlier_chains.extend(document.sweeps)
+            yield from self._advance_to_end(scene, document, earlier_chains)
             return
         # Show the prior's overlay at once: surfaces of the last scene must not stay on show during inference.
         prior = prior_result(scene, document)
@@ -182,6 +176,16 @@ class Engine:
             self._display.send_fields(prior)
         else:
             yield from self._infer_map(scene, document, task.mode)
+
+    def _show_saved_run(self, document: Document) -> None:
+        """Show the opened run, which needs no inference."""
+        assert isinstance(self._opened, OpenedRun)
+        self._result = self._opened.result
+        self._scene, self._scene_document = self._result.scene, document
+        self._display.send_scan(self._scene, self._scan)
+        self._display.send_fields(self._result)
+        self._display.send_overlay(self._result)
+        self._display.send_finished(self._result)
 
     def _infer_map(self, scene: Scene, document: Document, mode: Mode) -> Iterator[None]:
         """Infer the map by the document's method, as far as the mode says; yield after each step."""
@@ -258,7 +262,7 @@ class Engine:
             document = log.fit_grid(document)
         self._display.send_grid(document.grid)
         earlier = self._scene_document
-        without_effect = ("cells", *SETTINGS_OF_CHAINS)  # settings that do not change the readings
+        without_effect = ("cells", *SETTINGS_OF_CHAINS)  # settings, "prior" among them, that do not change the readings
         if self._scene is not None and earlier is not None and earlier.equals_except(document, without_effect):
             scene = self._scene if earlier.prior == document.prior else self._scene.with_prior(document.prior)
         else:
@@ -279,8 +283,8 @@ class Engine:
         pictured = False  # whether the first picture has been shown
         while True:
             first_is_due = preview.rounds >= MIN_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS
-            due = self._display.fields_are_due() if pictured else first_is_due
-            if not quiet and (preview.converged or due):
+            is_due = self._display.fields_are_due() if pictured else first_is_due
+            if not quiet and (preview.converged or is_due):
                 self._result = Result(scene, document, "propagate", preview)
                 self._display.send_fields(self._result)
                 pictured = True

@@ -112,9 +112,7 @@ class WrittenStory(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def read_story(path: str, document: Document) -> Story:
-    """Read a story from a JSON file, or the built-in story "tutorial". Its start changes a document.
-    Raises `BadInput`, with the file, the step and the key, if the file is no valid story.
-    """
+    """Read a story, whose start changes a document: a JSON file, or "tutorial". Raises `BadInput` for a bad one."""
     try:
         is_built_in = path == BUILT_IN_STORY
         values = json.loads(read_static("story.json") if is_built_in else Path(path).read_text(encoding="utf-8"))

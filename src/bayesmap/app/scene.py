@@ -1,7 +1,5 @@
 """Scenes: the readings of a document, and the inference problem built from them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -58,7 +56,7 @@ class Scene:
         scans = self.scans if self.n_used is None else self.scans.select(slice(self.n_used))
         return Model(scans, self.grid, cells, self.sensor, hit_depth=self.hit_depth)
 
-    def with_prior(self, p_wall: float) -> Scene:
+    def with_prior(self, p_wall: float) -> "Scene":
         """Return the scene under another prior, with the beam tables and indices that exist already."""
         other = replace(self, prior=Independent(p_wall))
         for name in ("problem", "near_problem"):

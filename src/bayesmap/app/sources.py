@@ -42,7 +42,7 @@ class OpenedRun:
 
     @cached_property
     def result(self) -> Result:
-        """The run as a `Result`. Its beam table, traced again, only counts beams."""
+        """The run as a `Result`. The beam table is traced again, only to count the beams."""
         from bayesmap.kernels.walls.table import trace  # loads Warp
 
         posterior = self.run.posterior
@@ -138,7 +138,7 @@ class OpenedLog:
         self._traced: TracedBeams | None = None  # the beams on the last grid
 
     def fit_grid(self, document: Document) -> Document:
-        """Return the document on a grid of its cell size, or on the log's own grid if that has too many cells."""
+        """Return the document on a new grid of its cell size, or on the log's own if the new one has too many cells."""
         own_grid, bounds = self.document.grid, self.document.source.bounds
         if bounds is None or document.grid.resolution == own_grid.resolution:
             return document.on_grid(own_grid)
@@ -164,7 +164,7 @@ class OpenedLog:
         return Result(self.scene(document), document, "hits", HitCountMap(mean, observed, prior))
 
     def _trace(self, grid: Grid) -> TracedBeams:
-        """Return the beams traced on a grid, which are kept for later calls with this grid."""
+        """Trace the beams on a grid, and keep them for later calls with this grid."""
         from bayesmap.kernels.walls.table import trace  # loads Warp
 
         if self._traced is None or self._traced.grid != grid:
@@ -213,8 +213,8 @@ def open_run(run: Run, name: str) -> OpenedRun:
         method=method if method in METHODS else "gibbs",
         order=settings.get("order") or "radial",  # other kinds of cells than walls have no order
         cells=run.posterior.prior.words.kind,  # type: ignore[arg-type]
-        sweeps=max(1, min(100_000, int(run.posterior.sweep))),
-        seed=min(2**31 - 1, int(settings.get("seed", 0))),
+        sweeps=max(1, min(100_000, int(run.posterior.sweep))),  # within the limits of `Document.sweeps`
+        seed=min(2**31 - 1, int(settings.get("seed", 0))),  # at most the limit of `Document.seed`
     )
     return OpenedRun(document, run)
 

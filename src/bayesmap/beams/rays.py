@@ -15,8 +15,6 @@ square (`Rays.chords`; `bayesmap.kernels.rays.chord` compiled):
 `stops_of` is the plain reference for every kernel that draws or predicts stops.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -64,7 +62,7 @@ class Rays:
         """The number of cells that each beam touches, (B,)."""
         return np.diff(self.offsets)
 
-    def select(self, beams: NDArray[np.integer]) -> Rays:
+    def select(self, beams: NDArray[np.integer]) -> "Rays":
         """Return the rays of the beams of these indices, in their order."""
         lengths = self.lengths[beams]
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)

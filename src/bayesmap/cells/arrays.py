@@ -3,8 +3,6 @@
 `Draws` holds the draws of a run, and an `ArraySpec` describes each of its arrays: dimensions, type and stored form.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -70,9 +68,7 @@ class ArraySpec:
         """Return values (..., *dims) in their stored form."""
         if self.storage == "bits":
             return pack(values, len(self.dims))
-        if self.storage == "half":
-            return as_halves(np.asarray(values))
-        return np.asarray(values, dtype=self.dtype)
+        return as_halves(np.asarray(values)) if self.storage == "half" else np.asarray(values, dtype=self.dtype)
 
     def values(self, stored: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
         """Return stored values in their plain form. ``shape`` are the sizes of the dimensions."""
@@ -114,15 +110,15 @@ class Draws:
         """Iterate over the numbers (chain, draw) of all draws, chain by chain."""
         return ((chain, draw) for chain in range(self.chains) for draw in range(self.count))
 
-    def thinned(self, max_draws: int) -> Draws:
+    def thinned(self, max_draws: int) -> "Draws":
         """Select at most ``max_draws`` draws, evenly spread over every chain, but at least one of each chain."""
         return self.select(evenly_spaced_indices(self.count, max_draws // self.chains))
 
-    def of_chain(self, chain: int) -> Draws:
+    def of_chain(self, chain: int) -> "Draws":
         """Select the draws of one chain."""
         return replace(self, arrays={name: values[chain : chain + 1] for name, values in self.arrays.items()})
 
-    def select(self, draws: slice | Indices) -> Draws:
+    def select(self, draws: slice | Indices) -> "Draws":
         """Select draws of every chain."""
         return replace(self, arrays={name: values[:, draws] for name, values in self.arrays.items()})
 

@@ -6,8 +6,6 @@ extends `CellPrior` works everywhere, too. The methods stand in the order prior,
 must be defined, and the defaults of the others suit independent cells whose draws cover the grid.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -43,7 +41,7 @@ class MeanSurfaces(NamedTuple):
     reflectivity: Floats  # mean reflectivities of the cells, (U,)
 
 
-KINDS: dict[str, type[CellPrior]] = {}  # kinds by name: subclasses of `CellPrior` with their own ``words``
+KINDS: "dict[str, type[CellPrior]]" = {}  # kinds by name: subclasses of `CellPrior` with their own ``words``
 
 
 class CellPrior(ABC):
@@ -69,7 +67,7 @@ class CellPrior(ABC):
         return False
 
     @classmethod
-    def of(cls, prior: CellPrior, caller: str, remedy: str = "") -> Self:
+    def of(cls, prior: "CellPrior", caller: str, remedy: str = "") -> Self:
         """Return the prior. If it is of another kind, raises `BadInput` with the caller and the remedy."""
         if not isinstance(prior, cls):
             advice = f"; {remedy}" if remedy else ""
@@ -195,6 +193,6 @@ class CellPrior(ABC):
         return {}
 
     @classmethod
-    def from_description(cls, values: Mapping[str, Any]) -> CellPrior:
+    def from_description(cls, values: Mapping[str, Any]) -> "CellPrior":
         """Return the prior of a description. The default passes all entries but "kind" as arguments."""
         return cls(**{name: value for name, value in values.items() if name != "kind"})

@@ -3,8 +3,6 @@
 The page shows a drawn world (`Document`), a story in steps, a saved run, or a log.
 """
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 import click
@@ -94,7 +92,7 @@ def app(
     serve(document, path=opened_file, log_options=log_options, story=story, host=host, port=port, on_ready=show_address)
 
 
-def _export_page(call: Call[LogSettings], document: Document, story: Story | None, file: str) -> None:
+def _export_page(call: Call[LogSettings], document: "Document", story: "Story | None", file: str) -> None:
     """Write a page that samples in the reader's browser, and needs no server."""
     from bayesmap.app.figures import figure_page
 

@@ -234,12 +234,11 @@ def as_toml(settings: Mapping[str, Settings]) -> str:
 
 
 def _format_value(value: bool | int | float | str) -> str:
+    """Return a value as TOML."""
     if isinstance(value, str):
         # A JSON string is a TOML string, except for surrogate pairs and a bare DEL.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, float) and not math.isfinite(value):
-        return str(value)
-    return json.dumps(value)
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else json.dumps(value)
 
 
 def _describe_key(key: Key) -> str:

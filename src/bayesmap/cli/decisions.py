@@ -4,8 +4,6 @@ Each command loads the run, warns if its chains have not converged, computes wit
 (`bayesmap.posterior.decisions`), writes a picture, and prints lines or a JSON document.
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -58,14 +56,7 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     )  # fmt: skip
     write_figure(picture, target)
     if not route.within_risk:
-        if route.free.probability > 0:
-            least = distinguishable(1 - route.free.probability, settings.risk)
-            finding = f"no path was found whose risk is {settings.risk:g} or less; the safest has a risk of {least}"
-            remedy = "accept it with --risk, give a smaller --radius, or map more of the way"
-        else:
-            finding = "no path was found that is free in any draw of the map"
-            remedy = "start or goal may touch a wall, or lie where no beam has been"
-        call.console.warn(f"{finding}: {remedy}")
+        call.console.warn(_risk_warning(1 - route.free.probability, settings.risk))
     lines = [*(f"{x:.3f},{y:.3f}" for x, y in route.path), _route_sentence(route)]
     free = route.free
     document = {
@@ -76,18 +67,20 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     _print_result(call, document, lines, target)
 
 
-def _load_run(call: Call[Any], run_file: str, output: str | None, default: str, *, force: bool) -> tuple[Run, Path]:
+def _load_run(
+    call: Call[Any], run_file: str, output: str | None, default_name: str, *, force: bool
+) -> "tuple[Run, Path]":
     """Return the run and the picture's path, by default beside the run. Prints whether the chains have converged."""
     from bayesmap.files import check_ending
     from bayesmap.result import load
 
     if output:
         check_ending(output, ("png", "pdf", "svg"), "figure")
-    target = picture_path(run_file, output, default, force=force)
+    target = picture_path(run_file, output, default_name, force=force)
     run = load(run_file)
     call.console.say(f"{run_file}: {counted(run.log_joint.size, 'draw')} of a map of {run.grid.n_cells:,} cells")
     if run.n_draws:
-        with progress_bar(call.console, "comparing the chains"):
+        with progress_bar(call.console, "comparing the chains"):  # shows the text only
             summary = run.summary()
         for strength in summary.strengths():
             call.console.say(f"good: {strength}")
@@ -104,14 +97,24 @@ def _print_result(call: Call[Any], document: dict[str, Any], lines: list[str], t
         write_lines([*lines, target])
 
 
-def _route_sentence(route: Route) -> str:
+def _route_sentence(route: "Route") -> str:
     """Return the length of a path and its probability of being free, in words."""
     free = route.free
     probability = f"{free.probability:.3f} +- {free.standard_error:.3f} (independent cells: {free.independent:.3f})"
     return f"{route.length_m:.2f} m, free with probability {probability}"
 
 
-def distinguishable(value: float, bound: float) -> str:
+def _risk_warning(risk: float, accepted_risk: float) -> str:
+    """Return the warning that the safest path has a larger risk than the accepted one, with a remedy."""
+    if risk >= 1:
+        finding = "no path was found that is free in any draw of the map"
+        return f"{finding}: start or goal may touch a wall, or lie where no beam has been"
+    finding = f"no path was found whose risk is {accepted_risk:g} or less"
+    safest = f"the safest has a risk of {format_apart_from(risk, accepted_risk)}"
+    return f"{finding}; {safest}: accept it with --risk, give a smaller --radius, or map more of the way"
+
+
+def format_apart_from(value: float, bound: float) -> str:
     """Return a number with 3 digits, or with as many as distinguish it from the printed bound."""
     texts = (f"{value:.{digits}g}" for digits in range(3, 18))
     return next((text for text in texts if float(text) != float(f"{bound:g}")), f"{value:.17g}")
@@ -146,8 +149,8 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
         )  # fmt: skip
     information = views.information
     picture = views_figure(
-        run.grid, run.occupancy, run.observed, candidates=views.candidates, nats=views.independent, best=views.best,
-        best_nats=information.at_most,
+        run.grid, run.occupancy, run.observed, candidates=views.candidates, information_nats=views.independent,
+        best=views.best, bounds_nats=information.at_most,
     )  # fmt: skip
     write_figure(picture, target)
     best_views = _best_views_json(views)
@@ -160,7 +163,7 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
     _print_result(call, document, lines, target)
 
 
-def _best_views_json(views: Views) -> list[dict[str, Any]]:
+def _best_views_json(views: "Views") -> list[dict[str, Any]]:
     """Return the best views as JSON values, with their expected information in nats."""
     information = views.information
     assert information.independent is not None

@@ -3,8 +3,6 @@
 A fourth run without warm-up gives the frames of a film.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -68,7 +66,7 @@ def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
     exit_unless_good(finished=finished, problems=call.settings().strict and bool(document["problems"]))
 
 
-def _infer_by_all_methods(console: Console, settings: DemoSettings) -> dict[str, Run]:
+def _infer_by_all_methods(console: Console, settings: DemoSettings) -> "dict[str, Run]":
     """Return the runs of the three methods on one scan, and a run without warm-up for the film."""
     import numpy as np
 
@@ -105,7 +103,7 @@ def _infer_by_all_methods(console: Console, settings: DemoSettings) -> dict[str,
     return runs
 
 
-def _write_products(runs: dict[str, Run], folder: Path) -> list[Path]:
+def _write_products(runs: "dict[str, Run]", folder: Path) -> list[Path]:
     """Write pictures, a film, the saved run and the map for nav2, and return their paths."""
     import numpy as np
 
@@ -133,7 +131,7 @@ def _write_products(runs: dict[str, Run], folder: Path) -> list[Path]:
     return [*paths, *runs["gibbs"].export(folder / "map.yaml")]
 
 
-def _print_report(console: Console, runs: dict[str, Run], folder: Path) -> None:
+def _print_report(console: Console, runs: "dict[str, Run]", folder: Path) -> None:
     """Print the speed and the convergence of each method, and where the files are."""
     for name in ("gibbs", "block"):
         summary = runs[name].summary()

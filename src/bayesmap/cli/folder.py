@@ -5,8 +5,6 @@ An interrupted run must leave a folder from which it can go on, and a new run mu
 and `write_products` at the end. `run_document` makes the JSON document.
 """
 
-from __future__ import annotations
-
 import contextlib
 import math
 import os
@@ -107,7 +105,7 @@ class Folder:
                 (self.path / name).unlink(missing_ok=True)
         self.outdated_path.unlink(missing_ok=True)
 
-    def save(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
+    def save(self, run: "Run", on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
         """Save the run. If it replaces an older run, remove the files made from that one."""
         try:
             run.save(self.run_path, on_progress)
@@ -121,7 +119,7 @@ class Folder:
         if self.outdated_path.exists():
             self.start_afresh()
 
-    def preview(self, run: Run) -> None:
+    def preview(self, run: "Run") -> None:
         """Write a picture of a first map without axes, and export it. An older run in the folder keeps its picture."""
         from bayesmap.viz.thumbnail import thumbnail
 
@@ -134,7 +132,7 @@ class Folder:
             except OSError as error:
                 self.console.warn(f"{self.path}: a first map could not be written: {error.strerror or error}")
 
-    def render(self, run: Run) -> list[Path]:
+    def render(self, run: "Run") -> list[Path]:
         """Render the map of a run (a single draw without uncertainty), and export it for nav2. Returns the paths."""
         from bayesmap.viz.figure import panel_figure, write_figure
 
@@ -144,7 +142,7 @@ class Folder:
         write_figure(figure, picture)
         return [picture, *run.export(self.path / "map.yaml")]
 
-    def checkpoint(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
+    def checkpoint(self, run: "Run", on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
         """Save the run so far. If this fails, as on a full disk, warn and let the run continue."""
         try:
             self.save(run, on_progress)
@@ -154,7 +152,7 @@ class Folder:
         except OSError as error:
             self.console.warn(f"{self.run_path}: checkpoint could not be written: {error.strerror or error}")
 
-    def write_products(self, run: Run) -> list[Path]:
+    def write_products(self, run: "Run") -> list[Path]:
         """Save the run; if it has draws, also render it and export it for nav2. Returns the paths of the files."""
         with stage_bar(self.console, "save") as report:
             self.save(run, report)
@@ -176,7 +174,7 @@ class Folder:
         write_file(self.path / "summary.json", as_json(document))
 
 
-def run_document(run: Run) -> dict[str, Any]:
+def run_document(run: "Run") -> dict[str, Any]:
     """Return the JSON document of a run: its settings, result, timings, diagnostics and problems."""
     posterior = run.posterior
     joint = run.log_joint
@@ -197,7 +195,7 @@ def run_document(run: Run) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def grid_document(grid: Grid) -> dict[str, Any]:
+def grid_document(grid: "Grid") -> dict[str, Any]:
     """Return the numbers of a grid as JSON values."""
     return {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)}
 

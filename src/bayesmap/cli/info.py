@@ -47,6 +47,7 @@ def info(call: Call[Settings], file: str) -> None:
 
 
 def _describe_run(file: str) -> dict[str, Any]:
+    """Describe a saved run, ready for JSON."""
     from bayesmap.io.contents import scans_summary
     from bayesmap.result import load
 
@@ -59,6 +60,7 @@ def _describe_run(file: str) -> dict[str, Any]:
 
 
 def _describe_map(file: str) -> dict[str, Any]:
+    """Describe a map in a file, ready for JSON."""
     import numpy as np
 
     from bayesmap.io.ros.maps import read_map
@@ -73,6 +75,7 @@ def _describe_map(file: str) -> dict[str, Any]:
 
 
 def _describe_log(file: str) -> dict[str, Any]:
+    """Describe a log, ready for JSON."""
     from bayesmap.io.contents import contents_of
 
     contents = contents_of(file)
@@ -86,6 +89,7 @@ def _describe_log(file: str) -> dict[str, Any]:
 
 
 def _lines(document: dict[str, Any]) -> list[str]:
+    """Return the description of a file as lines for the terminal."""
     lines = [f"{document['path']}: {document['format']}"]
     if document.get("duration_s") is not None:
         lines[0] += f", {document['duration_s']:,.1f} s"
@@ -116,6 +120,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
 
 
 def _run_lines(run: dict[str, Any]) -> list[str]:
+    """Return the description of a run as lines for the terminal."""
     state = "finished" if run["finished"] else "not finished"
     draws = f", {counted(run['draws'], 'draw')} each" if run["sweeps"] else ""
     lines = [f"method: {run['method']}, {work_done(run)}{draws}, {state}"]
@@ -128,6 +133,7 @@ def _run_lines(run: dict[str, Any]) -> list[str]:
 
 
 def _sensor_words(sensor: dict[str, Any]) -> str:
+    """Return a description of a sensor model in words."""
     from bayesmap.sensors.model import from_description
 
     model = from_description(sensor)

@@ -4,8 +4,6 @@ Loading the commands takes a part of a second. A Ctrl-C in that time ends the pr
 Once a command begins, Ctrl-C is an exception again, so that the command can save its work.
 """
 
-from __future__ import annotations
-
 import contextlib
 import gc
 import os
@@ -50,7 +48,7 @@ def main(arguments: list[str] | None = None) -> None:
         raise
 
 
-def _end_at_once(number: int, frame: FrameType | None) -> None:
+def _end_at_once(number: int, frame: "FrameType | None") -> None:
     """Handle Ctrl-C while commands are loaded: print one line and end the process at once."""
     try:
         os.write(2, b"bayesmap: error: interrupted\n")

@@ -83,11 +83,11 @@ def infer_log(
     # Report, and name commands to give next.
     file = str(folder.run_path)
     second = ["score", file, task.log, "--holdout", str(every)] if every else ["explore", file]
-    report(folder.console, document, commands=[["app", file], second, ["render", file]] if resume_command else ())
+    print_report(folder.console, document, commands=[["app", file], second, ["render", file]] if resume_command else ())
     return document
 
 
-def stem(log: str) -> str:
+def log_stem(log: str) -> str:
     """Return the name of a log without its folder and its endings."""
     name = os.path.basename(os.path.normpath(log))
     for ending in (".gz", ".log", ".clf", ".txt", ".bag", ".mcap", ".db3", ".g2o", ".csv", ".npz", ".rawlog"):
@@ -204,7 +204,7 @@ def document_of(run: Run, log: ScanLog, score: dict[str, Any] | None, outputs: l
     return {**run_document(run), "heldout": score, "log": log.summary(), "outputs": names}
 
 
-def report(
+def print_report(
     console: Console, document: dict[str, Any], *, good: Sequence[str] = (), doubtful: Sequence[str] = (),
     commands: Sequence[Sequence[str]] = (),
 ) -> None:  # fmt: skip

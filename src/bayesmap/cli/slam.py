@@ -68,7 +68,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
     if call.settings().fast and call.settings().sample_poses:
         raise click.UsageError("--fast takes poses as known and --sample-poses samples them: give one of them")
-    folder = Path(output) if output else Path("runs") / pipeline.stem(log)
+    folder = Path(output) if output else Path("runs") / pipeline.log_stem(log)
     task = pipeline.prepare(call, log, folder, resume=resume, force=force)
     resume_command = shlex.join(["bayesmap", "slam", log, "-o", str(folder), "--resume"])
     scan_log = pipeline.read_scan_log(call.console, log, task.settings, without_poses=task.settings.no_odometry)
@@ -113,7 +113,8 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     commands = [["app", file], score, ["explore", file]]
     for note in _notes(trajectory):
         call.console.say(f"note: {note}")
-    pipeline.report(call.console, document, good=_good(trajectory), doubtful=_doubtful(trajectory), commands=commands)
+    good, doubtful = _good(trajectory), _doubtful(trajectory)
+    pipeline.print_report(call.console, document, good=good, doubtful=doubtful, commands=commands)
     pipeline.print_result(call, document, strict=task.settings.strict)
 
 

@@ -133,6 +133,7 @@ def _describe_sensor(recording: Recording, topic: Topic, scans_by_topic: dict[st
 
 
 def _reason(path: str, problem: BadInput | None) -> str:
+    """Return the text of a problem without the path at its beginning."""
     return str(problem).removeprefix(f"{path}: ")
 
 

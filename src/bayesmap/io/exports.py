@@ -1,30 +1,29 @@
 """Write a posterior as a file for other programs. The format's name, or the path's ending, selects the writer.
 
 docs/file-formats.md describes the formats. `export_run` writes the map of a run, or its trajectory by
-`export_trajectory`. `write_geotiff` and `write_rerun` are here, other writers have files of their own. Rows of a
-GeoTIFF and of rerun's pictures run from the top, the largest y. rerun's coordinates are cells, with y downwards.
+`export_trajectory`. The writers of the formats have files of their own.
 """
 
 import contextlib
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.files import write_whole
+from bayesmap.io.geotiff import write_geotiff
+from bayesmap.io.rerun import write_rerun
 from bayesmap.io.ros import writer
 from bayesmap.io.ros.maps import write_map
 from bayesmap.io.text.g2o import Edges, chain_edges, slam_edges, write_g2o
 from bayesmap.io.text.trajectories import covariances_path, write_covariances, write_trajectory
-from bayesmap.space.grid import Grid, as_layers
 from bayesmap.space.planar import inverse
 from bayesmap.space.scans import Scans
-from bayesmap.space.trajectory import RelativeLaw, Trajectory, ellipses
+from bayesmap.space.trajectory import RelativeLaw, Trajectory
 
 if TYPE_CHECKING:
     from bayesmap.cells.arrays import Draws
@@ -40,13 +39,7 @@ TRAJECTORIES = ("tum", "trajectory", "g2o")  # formats of trajectories
 THRESHOLDED = ("map-server", "occupancy-grid")  # formats in per cent, which take a mode and thresholds
 APPROXIMATION = "the Student-t approximation of all scans' poses"
 INTERVAL_PROBABILITY = 0.9  # probability of the interval from the layer lower to the layer upper
-ELLIPSE_PROBABILITY = 0.95
-MIN_DATE_S = 1e8  # larger stamps, in seconds, are dates; smaller ones count from the start of the log
-SENSOR_COLOR = TRAJECTORY_COLOR = (0, 158, 115)
-SCAN_COLOR = (213, 94, 0)
-WALL_COLORS = ((250, 250, 248), (20, 31, 66))
-UNCERTAINTY_COLORS = ((0, 32, 76), (124, 123, 120), (255, 233, 69))  # 0 to 1, linearly, as in `bayesmap.viz.palette`
-UNKNOWN_COLOR = (214, 201, 176)  # not transparent: the viewer shows transparent pixels as black
+EVIDENCE_PROBABILITY = 0.9  # probability of the interval of a cell's stop probability given the beams alone
 
 
 def export_format(path: str | os.PathLike[str], format: str | None = None) -> str:
@@ -160,7 +153,7 @@ def known_cells(
     """
     if prior.thresholds is None or draws is None or not draws.count:
         return observed
-    evidence = prior.evidence_interval(draws, 0.9)
+    evidence = prior.evidence_interval(draws, EVIDENCE_PROBABILITY)
     if evidence is None:
         return observed
     limit = prior.thresholds[1] if free_thresh is None else free_thresh
@@ -203,10 +196,10 @@ def export_run(
         return (writer.write_grid_map(path, layers_of(run), grid, observed, stamp_s=stamp_s),)
     if chosen == "geotiff":
         return (write_geotiff(path, layers_of(run), grid, observed),)
-    # Trajectories, of the frame that the user names. The pose graph of `bayesmap.slam` is of the laser's poses.
     trajectory = trajectory_of(run, scans)
     if chosen == "rerun":
         return (write_rerun(path, layers_of(run), grid, observed, scans=scans, trajectory=trajectory),)
+    # Trajectories, of the frame that the user names. The pose graph of `bayesmap.slam` is of the laser's poses.
     framed = trajectory.of(frame, scans.mount)
     edges = None
     if chosen == "g2o" and trajectory.relative is not None and run.trajectory is not None:
@@ -214,112 +207,3 @@ def export_run(
         if framed.frame == "base":
             edges = edges.of_frame(inverse(np.asarray(scans.mount)))
     return export_trajectory(path, framed, format=chosen, edges=edges)
-
-
-def write_geotiff(
-    path: str | os.PathLike[str], layers: Mapping[str, ArrayLike], grid: Grid, observed: ArrayLike | None = None
-) -> Path:
-    """Write layers (see `as_layers`) as bands of a GeoTIFF, whole or not at all. Returns the path.
-    Cells that no beam reached are NaN, which is the bands' nodata value. Raises `BadInput` if rasterio is not
-    installed, for layers that do not fit, or a file that cannot be written.
-    """
-    try:
-        from rasterio.io import MemoryFile  # type: ignore[import-untyped, import-not-found, unused-ignore]
-        from rasterio.transform import Affine  # type: ignore[import-untyped, import-not-found, unused-ignore]
-    except ImportError:
-        raise BadInput(f"{path}: GeoTIFF needs rasterio: pip install 'bayesmap[geotiff]'") from None
-
-    checked = as_layers(grid, layers, observed)
-    x0, _, _, y1 = grid.extent_m
-    target = Path(path)
-    # The file is made in memory first, because GDAL only prints errors of a full disk.
-    with write_whole(target) as partial, MemoryFile() as memory:
-        with memory.open(
-            driver="GTiff", width=grid.shape[0], height=grid.shape[1], count=len(checked), dtype="float32",
-            nodata=float("nan"), transform=Affine(grid.resolution, 0.0, x0, 0.0, -grid.resolution, y1),
-            compress="deflate", interleave="band",
-        ) as file:  # fmt: skip
-            for band, (name, values) in enumerate(checked.items(), start=1):
-                file.write(values.T[::-1], band)
-                file.set_band_description(band, name)
-        partial.write_bytes(memory.getbuffer())
-    return target
-
-
-def write_rerun(
-    path: str | os.PathLike[str], layers: Mapping[str, ArrayLike], grid: Grid, observed: ArrayLike | None = None, *,
-    scans: Scans | None = None, trajectory: Trajectory | None = None,
-) -> Path:  # fmt: skip
-    """Write layers (see `as_layers`) for the rerun viewer, whole or not at all. Returns the path.
-    Over the layers the viewer shows the scans, and the trajectory with its ellipses, or else the scans' poses. Raises
-    `BadInput` if rerun-sdk is not installed, for layers that do not fit, or a file that cannot be written.
-    """
-    try:
-        import rerun as rr
-        import rerun.blueprint as rrb
-    except ImportError:
-        raise BadInput(f"{path}: .rrd needs rerun-sdk: pip install 'bayesmap[rerun]'") from None
-
-    checked = as_layers(grid, layers, observed)
-    overlays = ["/trajectory", "/ellipses", "/sensor", "/scan"]
-    views = [rrb.Spatial2DView(origin="/", contents=[f"/map/{name}", *overlays], name=name) for name in checked]
-    target = Path(path)
-    with write_whole(target) as partial:
-        recording = rr.RecordingStream("bayesmap", send_properties=False)
-        recording.send_recording_name(target.stem)
-        recording.save(partial, default_blueprint=rrb.Blueprint(rrb.Grid(*views)))
-        size, (x0, _, _, y1) = f"{grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m", grid.extent_m
-        corner = f"their upper left corner, which is x = {x0:g} m, y = {y1:g} m of the map's frame; y points up there"
-        about = f"A map by bayesmap: {size}. Pictures count in cells from {corner}."
-        recording.log("about", rr.TextDocument(about), static=True)
-        for name, values in checked.items():
-            picture = _picture(values, WALL_COLORS if name == "mean" else UNCERTAINTY_COLORS)
-            recording.log(f"map/{name}", rr.Image(picture), static=True)
-            tensor = rr.Tensor(np.ascontiguousarray(values.T[::-1]), dim_names=("row", "column"))
-            recording.log(f"values/{name}", tensor, static=True)
-        if scans is not None and len(scans):
-            _log_scans(rr, recording, scans, grid)
-            trajectory = Trajectory(scans.poses) if trajectory is None else trajectory
-        if trajectory is not None and len(trajectory):
-            _log_trajectory(rr, recording, trajectory, grid)
-        recording.flush()
-        recording.disconnect()
-    return target
-
-
-def to_pixels(points_world: NDArray[np.float64], grid: Grid) -> NDArray[np.float64]:
-    """Return points of the map frame in the picture's plane, (..., 2): columns from the left, rows from the top."""
-    cells = grid.to_cells(points_world)
-    return np.stack([cells[..., 0], grid.shape[1] - cells[..., 1]], axis=-1)
-
-
-def _log_scans(rr: Any, recording: Any, scans: Scans, grid: Grid) -> None:
-    """Add the sensor's positions and the ends of its beams at each time; ``rr`` is the module rerun."""
-    positions = to_pixels(scans.poses[:, :2], grid)
-    times = [rr.TimeColumn("scan", sequence=np.arange(len(scans)))]
-    if scans.stamps_s is not None:
-        kind = "timestamp" if scans.stamps_s.min() > MIN_DATE_S else "duration"
-        times.append(rr.TimeColumn("stamp", **{kind: scans.stamps_s}))
-    n_hits = np.isfinite(scans.ranges_m).sum(axis=1)
-    ends = to_pixels(scans.hit_points_world(), grid)
-    recording.log("sensor", rr.Points2D.from_fields(colors=[SENSOR_COLOR], radii=[1.5]), static=True)
-    recording.log("scan", rr.Points2D.from_fields(colors=[SCAN_COLOR], radii=[0.6]), static=True)
-    recording.send_columns("sensor", times, rr.Points2D.columns(positions=positions))
-    recording.send_columns("scan", times, rr.Points2D.columns(positions=ends).partition(lengths=n_hits))
-
-
-def _log_trajectory(rr: Any, recording: Any, trajectory: Trajectory, grid: Grid) -> None:
-    line = rr.LineStrips2D([to_pixels(trajectory.poses[:, :2], grid)], colors=[TRAJECTORY_COLOR], radii=[0.3])
-    recording.log("trajectory", line, static=True)
-    if trajectory.covariances is not None:
-        outlines = ellipses(trajectory.poses[:, :2], trajectory.covariances[:, :2, :2], ELLIPSE_PROBABILITY)
-        strips = rr.LineStrips2D(list(to_pixels(outlines, grid)), colors=[TRAJECTORY_COLOR], radii=[0.1])
-        recording.log("ellipses", strips, static=True)
-
-
-def _picture(values: NDArray[np.float32], colors: tuple[tuple[int, int, int], ...]) -> NDArray[np.uint8]:
-    """Return the colours of values from 0 to 1 as a picture, shape (ny, nx, 3), with the top row first."""
-    knots = np.linspace(0.0, 1.0, len(colors))
-    pixels = np.stack([np.interp(values, knots, shade) for shade in np.array(colors).T], axis=-1)
-    pixels[np.isnan(values)] = UNKNOWN_COLOR
-    return np.ascontiguousarray(np.rint(pixels).astype(np.uint8).transpose(1, 0, 2)[::-1])

@@ -210,4 +210,5 @@ class LogAccount:
 
 
 def _tilt_deg(height: float) -> float:
+    """Return the angle of a unit vector with the vertical, degrees, given its height."""
     return math.degrees(math.acos(min(abs(float(height)), 1.0)))

@@ -146,7 +146,7 @@ def decode(
         origin = "found"
         if stated_max_m is not None and (code is None or stated_max_m <= code):
             code, origin, doubtful = stated_max_m, "message", None
-        if code is None and _count_beams(is_impossible) >= MIN_BEAMS:
+        if code is None and is_impossible.any(axis=0).sum() >= MIN_BEAMS:
             code = float(readings_m[is_impossible].max())
     # The readings that it covers.
     is_coded = is_impossible if code is not None else np.zeros_like(is_impossible)
@@ -198,12 +198,7 @@ def _numbers_standing_out(readings_m: Floats, usable: Mask) -> list[float]:
     next_smaller = np.where(candidates > 0, values[candidates - 1], np.inf)
     isolated = (values[candidates] >= MIN_ISOLATION * next_smaller) & (n_below[-1] - n_below[candidates] >= MIN_BEAMS)
     standing_out = values[candidates[repeated | isolated]].tolist()
-    return [value for value in standing_out if _count_beams(readings_m >= value) >= MIN_BEAMS]
-
-
-def _count_beams(mask: Mask) -> int:
-    """Count the beams, columns of a mask (S, A), with a reading under it."""
-    return int(mask.any(axis=0).sum())
+    return [value for value in standing_out if (readings_m >= value).any(axis=0).sum() >= MIN_BEAMS]  # by beams
 
 
 @dataclass(frozen=True, eq=False)
@@ -247,9 +242,12 @@ class Views:
         scan, beam = np.nonzero(mask)
         place, direction = self.place[scan], self.direction_rad[scan, beam] % math.tau
         order = np.lexsort([direction, place])
-        is_apart = np.diff(direction[order]) > max(MAX_GAP_STEPS * self.step_rad, 2 * SAME_DIRECTION_RAD)
-        is_elsewhere = np.diff(place[order]) != 0
-        return int(len(scan) > 0) + int((is_apart | is_elsewhere).sum())
+        max_gap_rad = max(MAX_GAP_STEPS * self.step_rad, 2 * SAME_DIRECTION_RAD)
+        count = 0
+        for of_place in np.split(direction[order], np.flatnonzero(np.diff(place[order])) + 1):
+            gaps_rad = np.diff(of_place, append=of_place[:1] + math.tau)  # the last gap is across direction 0
+            count += max(int((gaps_rad > max_gap_rad).sum()), min(len(of_place), 1))
+        return count
 
 
 def max_range_of(

@@ -225,6 +225,7 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, "InferredTrajec
 
 
 def _with_prefix(group: Any, prefix: str) -> dict[str, NDArray[Any]]:
+    """Return the arrays of a group whose names begin with a prefix, by the rest of their names."""
     names = [name for name in group.variables if name.startswith(prefix)]
     return {name.removeprefix(prefix): np.asarray(group[name][:]) for name in names}
 
@@ -297,6 +298,7 @@ def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArra
 
 
 def _create_dimensions(group: Any, dimensions: tuple[str, ...], sizes: tuple[int, ...]) -> None:
+    """Create those dimensions of a group that it does not have yet."""
     for dimension, size in zip(dimensions, sizes, strict=True):
         if dimension not in group.dimensions:
             group.createDimension(dimension, size)
@@ -372,7 +374,7 @@ def trajectory_scalars(trajectory: "InferredTrajectory") -> dict[str, Any]:
 def trajectory_from(arrays: Mapping[str, NDArray[Any]], scalars: Mapping[str, Any]) -> "InferredTrajectory":
     """Return the trajectory, given the arrays of `trajectory_arrays` and the result of `trajectory_scalars`."""
     from bayesmap.poses.calibration import MotionNoise, OdometryFit
-    from bayesmap.poses.graph import Factors, PoseGaussian
+    from bayesmap.poses.graph import Factors, PoseStudentT
     from bayesmap.poses.prior import Odometry
     from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, InferredTrajectory, LoopClosures
 
@@ -391,7 +393,7 @@ def trajectory_from(arrays: Mapping[str, NDArray[Any]], scalars: Mapping[str, An
         point_sigma_m=scalars["point_sigma_m"], **part("calibration"),
     )  # fmt: skip
     return InferredTrajectory(
-        **fields, gaussian=PoseGaussian(**part("gaussian"), dof=scalars["dof"]),
+        **fields, gaussian=PoseStudentT(**part("gaussian"), dof=scalars["dof"]),
         closures=LoopClosures(**part("closures")),
         alternatives=Alternatives(**part("alternatives")) if "alternatives_first" in arrays else NO_ALTERNATIVES,
         odometry=Factors(**part("odometry")) if "odometry_first" in arrays else None, calibration=calibration,

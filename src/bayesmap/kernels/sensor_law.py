@@ -364,8 +364,6 @@ def not_random_below(law: Any, z: Any, decay: Any, distance_m: Any, variance: An
     stop_m = wp.min(distance_m, law.max_m)
     past = wp.exp(-law.rate_short_per_m * stop_m)
     met = law.p_short * (one - wp.where(stop_m < z, past, decay))
-    if distance_m > law.max_m:
-        return met
     returned = one
     if not is_before(law, z, distance_m, variance):
         returned = noise_below(law, (z - stop_m) / wp.sqrt(variance_at(law, stop_m, variance)))

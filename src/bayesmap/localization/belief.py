@@ -6,8 +6,6 @@ present places (`PoseMixture.draw`), weights the draws by target / proposal (`Po
 weighted means (`PoseMixture.adapt`). But for truncation the last weights are unbiased; they average to the evidence.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -114,7 +112,7 @@ class PoseBelief:
                 modes.append(Mode(mean, covariance + np.diag(MIN_MODE_SIGMA**2), min(probability, 1.0)))
         return tuple(sorted(modes, key=lambda mode: -mode.probability))
 
-    def of_frame(self, step: Floats) -> PoseBelief:
+    def of_frame(self, step: Floats) -> "PoseBelief":
         """Return the posterior of another frame on the robot, at ``step``, (3,), in the frame of these poses."""
         mode_of = label_clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         return replace(self, poses=compose(self.poses, step), mode_of=mode_of)
@@ -246,17 +244,17 @@ class PoseMixture:
     covariances: Floats  # covariances in world axes, (K, 3, 3)
     log_mass: Floats  # log of each place's share of the target, up to a constant, (K,)
 
-    def best(self, max_places: int, within_nats: float = NEGLIGIBLE_NATS) -> PoseMixture:
+    def best(self, max_places: int, within_nats: float = NEGLIGIBLE_NATS) -> "PoseMixture":
         """Return the ``max_places`` places of greatest mass, none more than ``within_nats`` below the first."""
         order = np.argsort(-self.log_mass, kind="stable")[:max_places]
         order = order[self.log_mass[order] > self.log_mass[order[0]] - within_nats]
         return self.select(order)
 
-    def select(self, places: Sequence[int] | Indices) -> PoseMixture:
+    def select(self, places: Sequence[int] | Indices) -> "PoseMixture":
         """Return the places with these numbers."""
         return PoseMixture(self.means[places], self.covariances[places], self.log_mass[places])
 
-    def draw(self, target: LogDensity, count: int | Indices, rng: np.random.Generator) -> Population:
+    def draw(self, target: LogDensity, count: int | Indices, rng: np.random.Generator) -> "Population":
         """Draw ``count`` poses from each place, one number or (K,), and weight them. Masses of places are not used."""
         counts = np.broadcast_to(count, len(self.means))
         place = np.repeat(np.arange(len(counts)), counts)
@@ -301,12 +299,12 @@ class PoseMixture:
         squared, half_log_det = self.mahalanobis_terms(poses)
         return np.asarray(STUDENT_CONSTANT - half_log_det - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
 
-    def weigh(self, population: Population) -> PoseMixture:
+    def weigh(self, population: "Population") -> "PoseMixture":
         """Return the places with new masses: the sums of the weights of the draws from each place."""
         masses = [log_sum(population.log_weights[population.place == k]) for k in range(len(self.means))]
         return PoseMixture(self.means, self.covariances, np.array(masses))
 
-    def adapt(self, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
+    def adapt(self, population: "Population", widen: float = 1.5) -> "tuple[PoseMixture, float]":
         """Return the places at the weighted moments of their draws, and the lowest power of the tempered weights."""
         # With a power of 1 the proposals are near the target. With a lower power, another round will improve them.
         count, min_tempering = len(self.means), 1.0

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.localization.belief import log_sum
-from bayesmap.localization.search import EndpointField, Field, endpoint_field, likelihood_field
+from bayesmap.localization.search import EndpointField, LikelihoodField, endpoint_field, likelihood_field
 from bayesmap.sensors.model import BeamMixture, Gaussian, RangeLimits, SensorModel, StudentT
 from bayesmap.space.arrays import Mask
 from bayesmap.space.planar import Floats
@@ -69,7 +69,7 @@ class KnownMap:
     grid: Grid
     packed: DeviceMaps  # draws of the map, for kernels
     sensor: SensorModel
-    field: Field  # likelihood field for the search
+    field: LikelihoodField  # likelihood field for the search
     free: Mask  # mask of cells in which a robot may be, (nx, ny)
     unknown: Mask  # mask of unknown cells, (nx, ny)
     p_stop_unknown: float  # stop probability of unknown cells in the search

@@ -4,8 +4,6 @@
 (`predict`) and weights it by the scan (`bayesmap.localization.filter.update`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -68,7 +66,7 @@ class InitialPose:
         covariance = np.diag(np.array([self.sigma_m, self.sigma_m, self.sigma_rad]) ** 2)
         return PoseMixture(np.asarray(self.pose)[None], covariance[None], np.zeros(1))
 
-    def share_in(self, grid: Grid) -> float:
+    def share_in(self, grid: "Grid") -> float:
         """Compute the probability of a position on the map's grid."""
         low, high = (np.array(grid.extent_m[side::2]) for side in (0, 1))
         xy = np.asarray(self.pose)[:2]
@@ -130,7 +128,7 @@ class Localization:
         poses = np.array([belief.mean for belief in self.beliefs])
         return Trajectory(poses, stamps_s, np.array([belief.covariance for belief in self.beliefs]), frame=self.frame)
 
-    def of(self, frame: str | None, mount: Floats | None) -> Localization:
+    def of(self, frame: str | None, mount: Floats | None) -> "Localization":
         """Return the posteriors of the robot's "base", or of its "laser" at ``mount``, (3,). See `step_to`."""
         new_frame, step = step_to(frame, mount, self.frame)
         return Localization(self.beliefs if step is None else tuple(b.of_frame(step) for b in self.beliefs), new_frame)

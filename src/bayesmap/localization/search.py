@@ -7,8 +7,6 @@ over the scan's points, of the coarse field shifted by the point. The best block
 centimetres: its field proposes poses, and the exact law weights them.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -37,7 +35,7 @@ MIN_STOP = 0.1  # cells that stop beams with a lower probability have no surface
 
 
 @dataclass(frozen=True, eq=False)
-class Field:
+class LikelihoodField:
     """A likelihood field over a grid.
     A value v of ``fine``, as a share of 255, stands for a likelihood of an end point, relative to one on a wall, of
     `MIN_LIKELIHOOD`^(1 - v).
@@ -64,7 +62,7 @@ class Candidates:
     scores: Floats  # mean of the field at the scan's points, from 0 to 1, (K,)
 
 
-def search(field: Field, angles_rad: Floats, ranges_m: Floats, max_poses: int) -> Candidates:
+def search(field: LikelihoodField, angles_rad: Floats, ranges_m: Floats, max_poses: int) -> Candidates:
     """Find the best poses of a scan over a whole map, all apart. There are none with fewer hits than `MIN_POINTS`."""
     points = end_points(angles_rad, ranges_m, COARSE_POINTS)
     coarse = _coarse_poses(field, points) if len(points) >= MIN_POINTS else np.empty((0, 3))
@@ -79,36 +77,23 @@ def end_points(angles_rad: Floats, ranges_m: Floats, max_points: int) -> Floats:
     return np.stack([np.cos(angles_rad[hits]), np.sin(angles_rad[hits])], axis=-1) * ranges_m[hits, None]
 
 
-def _coarse_poses(field: Field, points: Floats) -> Floats:
+def _coarse_poses(field: LikelihoodField, points: Floats) -> Floats:
     """Return the best position of each of the best blocks and headings, (N, 3), with N up to `MAX_BLOCKS`."""
     resolution, (mx, my) = field.coarse_grid.resolution, field.coarse_grid.shape
-    reach = int(np.ceil(np.hypot(*points.T).max() / resolution)) + 2
-    # Flatten rows with gaps between them, into which points beyond a row's end fall.
+    reach = int(np.ceil(np.hypot(*points.T).max() / resolution)) + 2  # largest shift, with room for rounding
+    # Flatten rows with gaps between them. Points beyond a row's end fall there. Points beyond the first or last row
+    # fall into rows of zeros before and after them; one row is spare.
     width = my + reach
     values = np.pad(field.coarse, ((reach, reach + 1), (0, reach))).ravel()
-    # Quantise so that the sum over all points fits in a byte: bytes are faster to add.
-    levels = 255 // len(points)
-    quantised = ((values * levels + MAX_VALUE // 2) // MAX_VALUE).astype(np.uint8)
     # Compute the shift of the flat field for each point and heading. Positions are the middles of coarse cells.
     headings = np.arange(HEADINGS) * (2 * np.pi / HEADINGS)
     cos, sin = np.cos(headings)[:, None], np.sin(headings)[:, None]
     shift_x = np.floor((cos * points[:, 0] - sin * points[:, 1]) / resolution + 0.5).astype(int)
     shift_y = np.floor((sin * points[:, 0] + cos * points[:, 1]) / resolution + 0.5).astype(int)
     shifts = (reach + shift_x) * width + shift_y
-    # Sum the shifted fields per heading, and keep the best position of each block.
-    length = (mx - 1) * width + my
-    blocks_x, blocks_y = math.ceil(mx / BLOCK_CELLS), math.ceil(my / BLOCK_CELLS)
-    is_open = np.zeros((blocks_x * BLOCK_CELLS, blocks_y * BLOCK_CELLS), dtype=np.uint8)
-    is_open[:mx, :my] = field.open
-    block_sums = np.empty((HEADINGS, blocks_x, blocks_y), dtype=np.uint8)
-    total, sums = np.zeros(mx * width, dtype=np.uint8), np.zeros(is_open.shape, dtype=np.uint8)
-    for heading in range(HEADINGS):
-        total[:] = 0
-        for shift in shifts[heading].tolist():
-            np.add(total[:length], quantised[shift : shift + length], out=total[:length])
-        np.multiply(total.reshape(mx, width)[:, :my], is_open[:mx, :my], out=sums[:mx, :my])
-        rows = np.maximum.reduce([sums[k::BLOCK_CELLS] for k in range(BLOCK_CELLS)])
-        block_sums[heading] = np.maximum.reduce([rows[:, k::BLOCK_CELLS] for k in range(BLOCK_CELLS)])
+    # Score the blocks roughly. Positions that fill up the last blocks are closed.
+    is_open = np.pad(field.open, ((0, -mx % BLOCK_CELLS), (0, -my % BLOCK_CELLS))).astype(np.uint8)
+    block_sums = _block_maxima(values.reshape(-1, width), shifts, is_open, (mx, my))
     # Select the best blocks, and find the best position within each by the exact field.
     count = min(MAX_BLOCKS, block_sums.size)
     selected = np.argpartition(block_sums.ravel(), -count)[-count:]
@@ -123,11 +108,37 @@ def _coarse_poses(field: Field, points: Floats) -> Floats:
     return np.column_stack([np.array(field.grid.origin) + (cells + 0.5) * resolution, headings[heading_of]])
 
 
-def refine(field: Field, points: Floats, poses: Floats, max_poses: int) -> Candidates:
+def _block_maxima(
+    rows: NDArray[np.uint16], shifts: Indices, is_open: NDArray[np.uint8], shape: tuple[int, int]
+) -> NDArray[np.uint8]:
+    """Return the best rough score in each block for each heading, (HEADINGS, blocks_x, blocks_y).
+    ``rows`` is the padded field, and ``shifts`` are those of its flat values, (HEADINGS, points). ``is_open`` is a mask
+    of positions in whole blocks, of which the first, `shape`, are on the coarse grid.
+    """
+    (mx, my), width = shape, rows.shape[1]
+    # Quantise so that the sum over all points fits in a byte: bytes are faster to add.
+    levels = 255 // shifts.shape[1]
+    quantised = ((rows.ravel() * levels + MAX_VALUE // 2) // MAX_VALUE).astype(np.uint8)
+    # Sum the shifted fields per heading, and keep the best position of each block.
+    length = (mx - 1) * width + my
+    block_sums = np.empty((HEADINGS, is_open.shape[0] // BLOCK_CELLS, is_open.shape[1] // BLOCK_CELLS), dtype=np.uint8)
+    total, sums = np.zeros(mx * width, dtype=np.uint8), np.zeros(is_open.shape, dtype=np.uint8)
+    for heading in range(HEADINGS):
+        total[:] = 0
+        for shift in shifts[heading].tolist():
+            np.add(total[:length], quantised[shift : shift + length], out=total[:length])
+        np.multiply(total.reshape(mx, width)[:, :my], is_open[:mx, :my], out=sums[:mx, :my])
+        column_maxima = np.maximum.reduce([sums[k::BLOCK_CELLS] for k in range(BLOCK_CELLS)])
+        block_sums[heading] = np.maximum.reduce([column_maxima[:, k::BLOCK_CELLS] for k in range(BLOCK_CELLS)])
+    return block_sums
+
+
+def refine(field: LikelihoodField, points: Floats, poses: Floats, max_poses: int) -> Candidates:
     """Return the best poses that are apart, climbed on the fine field from each pose by ever smaller steps."""
     step_m, step_rad = 0.5 * field.coarse_grid.resolution, np.pi / HEADINGS
     scores = field.score(points, poses)
     offsets = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1], [-1, 0, 1], indexing="ij"), axis=-1).reshape(-1, 3)
+    # Each round keeps fewer poses, and halves the step. Poses within half a step of a better one are dropped.
     for count in (len(poses), 4 * max_poses, 2 * max_poses):
         order = _apart(poses, np.argsort(-scores, kind="stable"), count, 0.5 * step_m, 0.5 * step_rad)
         neighbours = poses[order, None] + offsets * np.array([step_m, step_m, step_rad])
@@ -156,7 +167,7 @@ def _apart(poses: Floats, order: Indices, max_poses: int, apart_m: float, apart_
 
 def likelihood_field(
     occupancy: Floats, grid: Grid, free: Mask, unknown: Mask | None = None, p_unknown: float = 0.0
-) -> Field:
+) -> LikelihoodField:
     """Compute the likelihood field of a map from the probability that each cell stops a beam, 0 where unknown.
 
     Near walls a value is the largest s exp(-d^2 / (2 sigma^2)) over cells at distance d, where s is a cell's stop
@@ -184,9 +195,10 @@ def likelihood_field(
     stride = max(1, round(COARSE_M / grid.resolution))
     shape = (math.ceil(nx / stride), math.ceil(ny / stride))
     coarse_grid = Grid(shape, grid.resolution * stride, grid.origin)
-    coarse = _blocks(np.round(MAX_VALUE * fine), stride, shape).max(axis=(1, 3))
+    values = np.round(MAX_VALUE * fine)
+    coarse = _blocks(values, stride, shape).max(axis=(1, 3)).astype(np.uint16)
     is_open = np.asarray(_blocks(free, stride, shape).any(axis=(1, 3)), dtype=np.bool_)
-    return Field(grid, np.round(MAX_VALUE * fine).astype(np.uint8), coarse_grid, coarse.astype(np.uint16), is_open)
+    return LikelihoodField(grid, values.astype(np.uint8), coarse_grid, coarse, is_open)
 
 
 def likelihood_in_unknown(p_unknown: float, sigma_m: float, resolution: float) -> float:
@@ -219,7 +231,7 @@ class EndpointField:
 def endpoint_field(
     states: NDArray[np.float32], grid: Grid, noise_m: float, unknown: Mask, p_unknown: float
 ) -> EndpointField:
-    """Compute the field of the draws of a map, as `KnownMap.of_draws` takes them.
+    """Compute the field of D draws of a map: ``states`` are stop probabilities, (D, N), or surfaces, (D, N, 6).
     Each surface has its normal density, widened by the noise of a reading, ``noise_m``, and scaled to a peak of 1.
     Cells of the mask ``unknown`` stop a beam with probability ``p_unknown``. Objects in the way of a beam are left out.
     """

@@ -7,8 +7,6 @@ shrinks from decimetres to the noise. `point_error` then measures how precise th
 each scan between key scans. Why the curvature of the cost claims too much: docs/how/poses.md, "Uncertainty".
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -16,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.kernels.match import line_pairs
-from bayesmap.kernels.match.line_pairs import LinearizedPairs, PairRules, linearize_pairs, match_counts
+from bayesmap.kernels.match.line_pairs import LinearisedPairs, PairRules, linearise_pairs, match_counts
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
-from bayesmap.poses.graph import Factors, PoseGaussian, Quadratic, quadratic, solve_step
+from bayesmap.poses.graph import Factors, PoseStudentT, Quadratic, quadratic, solve_step
 from bayesmap.poses.scan_geometry import NO_POINT, ScanGeometry
 from bayesmap.space.arrays import Indices, Mask, bracketing_indices, evenly_spaced, nearest_index, offsets_of
 from bayesmap.space.planar import Floats, between, compose, rotation
@@ -73,7 +71,7 @@ class Alignment:
     poses: Floats  # aligned poses, (S, 3)
     pairs: Pairs  # scans that were compared
     sigma_m: float  # standard deviation of a point, from the residuals
-    gaussian: PoseGaussian  # curvature of the cost about the poses, for covariances
+    gaussian: PoseStudentT  # curvature of the cost about the poses, for covariances
 
 
 @dataclass(frozen=True)
@@ -113,16 +111,16 @@ def align(
         if has_new_pairs or number == annealing.rounds - 2:
             weights = _beam_weights(geometry, pairs, relative, rules)
         # Solve for one step of laser and odometry.
-        linearized = linearize_pairs(geometry, weights, pairs.source, pairs.target, relative, rules, geometry.threads)
-        laser = _laser_cost(pairs, relative, linearized, sigma_m, rules.stride)
+        linearised = linearise_pairs(geometry, weights, pairs.source, pairs.target, relative, rules, geometry.threads)
+        laser = _laser_cost(pairs, relative, linearised, sigma_m, rules.stride)
         slip_weights = 1.0 / (1.0 + odometry.squares(poses) / SLIP_SQ)
         wheels = quadratic(odometry, poses, slip_weights if firm is None else np.where(firm, 1.0, slip_weights))
         step, _ = solve_step(len(poses), [laser, wheels])
         poses = compose(poses, step)
         gaussian = _gaussian(poses, laser, wheels)
         # Residuals have the errors of two points.
-        weight = max(linearized.totals[:, line_pairs.WEIGHT].sum(), 1e-9)  # not 0 if no points are paired
-        point_variance = max(linearized.totals[:, line_pairs.COST].sum() / weight, 1e-8) / 2.0
+        weight = max(linearised.totals[:, line_pairs.WEIGHT].sum(), 1e-9)  # not 0 if no points are paired
+        point_variance = max(linearised.totals[:, line_pairs.COST].sum() / weight, 1e-8) / 2.0
         sigma_m = float(np.clip(np.sqrt(point_variance), *SIGMA_BOUNDS_M))
         if on_progress is not None:
             on_progress(number + 1, poses)
@@ -137,9 +135,9 @@ def _beam_weights(geometry: ScanGeometry, pairs: Pairs, relative: Floats, rules:
     return np.asarray(0.5 / (1.0 + counts), dtype=np.float32)
 
 
-def _laser_cost(pairs: Pairs, relative: Floats, linearized: LinearizedPairs, sigma_m: float, stride: int) -> Quadratic:
+def _laser_cost(pairs: Pairs, relative: Floats, linearised: LinearisedPairs, sigma_m: float, stride: int) -> Quadratic:
     """Return the laser's cost over the relative poses of pairs, (M, 3), from every ``stride``-th beam."""
-    curvature, gradient = without_slack(linearized.hessian, linearized.slack, linearized.gradient, sigma_m)
+    curvature, gradient = without_slack(linearised.hessian, linearised.slack, linearised.gradient, sigma_m)
     factor = stride / sigma_m**2
     target, source = pairs.target.astype(np.intp), pairs.source.astype(np.intp)
     return Quadratic(target, source, relative, curvature * factor, gradient * factor)
@@ -159,13 +157,13 @@ def without_slack(hessian: Floats, slack: Floats, gradient: Floats, sigma_m: flo
     return curvature, (curvature @ minimum)[..., 0]
 
 
-def _gaussian(poses: Floats, laser: Quadratic, wheels: Quadratic) -> PoseGaussian:
+def _gaussian(poses: Floats, laser: Quadratic, wheels: Quadratic) -> PoseStudentT:
     """Return the Gaussian of both costs. Only the laser's pairs have forces, since motions err independently."""
     first = np.concatenate([laser.first, wheels.first])
     second = np.concatenate([laser.second, wheels.second])
     curvature = np.concatenate([laser.curvature, wheels.curvature])
     force = np.concatenate([laser.gradient, np.zeros_like(wheels.gradient)])
-    return PoseGaussian(poses, first, second, between(poses[first], poses[second]), curvature, force)
+    return PoseStudentT(poses, first, second, between(poses[first], poses[second]), curvature, force)
 
 
 def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> Pairs:
@@ -177,7 +175,7 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> 
     # Compute the share of the source's points that lie on walls of the target.
     rules = PairRules(TRIAL_REACH_M, TRIAL_SCALE_M, MIN_COSINE, max(1, geometry.beams // TRIAL_BEAMS))
     relative = between(poses[target], poses[source])
-    totals = linearize_pairs(geometry, None, source, target, relative, rules, geometry.threads).totals
+    totals = linearise_pairs(geometry, None, source, target, relative, rules, geometry.threads).totals
     sampled = np.maximum((geometry.host_kind[:, :: rules.stride] != NO_POINT).sum(axis=1), 1)
     share = totals[:, line_pairs.MATCHED] / sampled[source]
     good = share > MIN_MATCHED_SHARE
@@ -247,13 +245,13 @@ def point_error(geometry: ScanGeometry, aligned: Alignment) -> PointError:
     sampled = slice(None, None, max(1, len(pairs) // MIN_ERROR_PAIRS))
     source, target, relative = pairs.source[sampled].copy(), pairs.target[sampled].copy(), relative[sampled]
 
-    def linearize_at(shift: Floats) -> LinearizedPairs:
-        return linearize_pairs(geometry, weights, source, target, relative + shift, rules, geometry.threads)
+    def linearise_at(shift: Floats) -> LinearisedPairs:
+        return linearise_pairs(geometry, weights, source, target, relative + shift, rules, geometry.threads)
 
-    linearized = linearize_at(np.zeros(3))
-    curvature = np.einsum("mii->i", linearized.hessian)
-    weight = float(linearized.totals[:, line_pairs.WEIGHT].sum())
-    force_sq = float(linearized.totals[:, line_pairs.FORCE_SQ].sum())
+    linearised = linearise_at(np.zeros(3))
+    curvature = np.einsum("mii->i", linearised.hessian)
+    weight = float(linearised.totals[:, line_pairs.WEIGHT].sum())
+    force_sq = float(linearised.totals[:, line_pairs.FORCE_SQ].sum())
     if not (curvature.min(initial=np.inf) > 0.0 and weight > 0.0):
         return PointError(aligned.sigma_m, np.ones(3))
     # Measure how the gradient changes with a shift. Scans look any way, so that x and y share one response.
@@ -261,14 +259,14 @@ def point_error(geometry: ScanGeometry, aligned: Alignment) -> PointError:
     for axis, lever_m in enumerate((1.0, 1.0, LEVER_M)):
         shift = np.zeros(3)
         shift[axis] = 0.5 * aligned.sigma_m / lever_m
-        change = linearize_at(shift).gradient - linearize_at(-shift).gradient
+        change = linearise_at(shift).gradient - linearise_at(-shift).gradient
         slope[axis] = change[:, axis].sum() / (2.0 * shift[axis])
     response_xy = (slope[0] + slope[1]) / (curvature[0] + curvature[1])
     response = np.clip([response_xy, response_xy, slope[2] / curvature[2]], *RESPONSE_BOUNDS)
     return PointError(float(np.sqrt(0.5 * force_sq / weight)), response)
 
 
-def with_point_error(aligned: Alignment, error: PointError) -> PoseGaussian:
+def with_point_error(aligned: Alignment, error: PointError) -> PoseStudentT:
     """Return the Gaussian of aligned scans with the laser's part scaled to a measured error of points."""
     gaussian = aligned.gaussian
     scale = (aligned.sigma_m / error.scatter_m) ** 2 * gaussian.dof / (gaussian.dof - 2.0) / (1.0 - SHARED_ERROR_SHARE)
@@ -350,8 +348,8 @@ def _information(
     offsets = np.searchsorted(source, np.arange(len(geometry) + 1)).astype(np.int32)
     counts = match_counts(geometry, offsets, target, relative, rules, geometry.threads)
     weights = (1.0 / (1.0 + counts)).astype(np.float32)
-    linearized = linearize_pairs(geometry, weights, source, target, relative, rules, geometry.threads)
-    curvature, _ = without_slack(linearized.hessian, linearized.slack, linearized.gradient, error.scatter_m)
+    linearised = linearise_pairs(geometry, weights, source, target, relative, rules, geometry.threads)
+    curvature, _ = without_slack(linearised.hessian, linearised.slack, linearised.gradient, error.scatter_m)
     in_target = curvature / error.scatter_m**2
     to_target = rotation(relative[:, 2])
     in_source = np.swapaxes(to_target, 1, 2) @ in_target @ to_target

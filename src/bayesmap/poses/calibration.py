@@ -11,8 +11,6 @@
   The first beam's angle stays as stated, because a turn of all beams is a turn of the laser, which B contains.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,6 +31,8 @@ STAMP_ERROR_S, MOTION_ERROR_M = 0.3, 0.5  # errors of a time between stamps and 
 ORDINARY_ODOMETRY = Odometry(still_m=0.01, still_rad=0.01)  # a robot's noise is a multiple of this noise
 PRIOR_RATIO = 3.0  # prior value of this multiple
 PRIOR_COUNT = 12.0  # number of motions that the prior value counts as
+RATIO_RANGE = (0.5, 30.0)  # credible values of this multiple
+MAX_SLOPE_SIGMAS, MAX_NOISE_SIGMAS = 4.0, 5.0  # outliers for the slope; a motion counts to the noise as at most this
 MEMORY_MOTIONS = 300.0  # number of motions over which the noise is averaged, since floors differ
 SLOPE_SIGMA = 0.15  # prior standard deviation of the entries of C: 15 % of the motion
 ORDINARY_RATES = np.array([[1e-3, 1e-3, 1e-5], [5e-4, 5e-4, 1e-5], [1e-3, 2e-3, 1e-6]])
@@ -101,7 +101,7 @@ class RunningOdometry:
     @property
     def ratios(self) -> Floats:
         """The noise of the position and of the heading as multiples of `ORDINARY_ODOMETRY`, (2,)."""
-        return np.asarray(np.clip(np.sqrt(self._squares / self._count), 0.5, 30.0))  # within credible limits
+        return np.asarray(np.clip(np.sqrt(self._squares / self._count), *RATIO_RANGE))
 
     def corrected(self, motions: Floats) -> Floats:
         """Return stated motions with the systematic error removed, (..., 3)."""
@@ -116,8 +116,8 @@ class RunningOdometry:
         error = wrap_yaw(stated - matched)
         variance = self.variances(stated) + laser_variance
         residual = wrap_yaw(error - self._systematic @ matched)
-        if not (residual**2 < 16.0 * variance).all():
-            return  # an outlier, over 4 standard deviations from what is known
+        if not (residual**2 < MAX_SLOPE_SIGMAS**2 * variance).all():
+            return
         # One weight for the three: the entries of C share a normal matrix.
         gain = float(np.exp(-np.mean(np.log(np.maximum(variance, 1e-6))))) * SLOPE_SIGMA**2  # 1e-6: no infinite weight
         self._normal += gain * np.outer(matched, matched)
@@ -130,7 +130,7 @@ class RunningOdometry:
         residual = wrap_yaw(matched - stated - self.slope @ stated)
         excess = np.maximum(residual**2 - laser_variance, 0.0) / ORDINARY_ODOMETRY.sigmas(stated) ** 2
         forgetting = 1.0 - 1.0 / MEMORY_MOTIONS
-        limit = 25.0 * self._squares / self._count  # no motion counts as more than five standard deviations
+        limit = MAX_NOISE_SIGMAS**2 * self._squares / self._count
         self._squares = forgetting * self._squares + np.minimum([0.5 * (excess[0] + excess[1]), excess[2]], limit)
         self._count = forgetting * self._count + 1.0
 

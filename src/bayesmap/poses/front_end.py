@@ -48,7 +48,14 @@ SCORE_RATE = 0.05  # rate at which the usual score follows the scores of scans
 UNUSUAL_LOSS = 0.04  # scans this far below the usual score may have gone backwards, unreported by odometry
 BACKWARDS_GAIN = 0.05  # least gain in score for going backwards: along a wall both directions fit
 WIDE_M = 1.0  # half width of the wide search, metres
-WIDE_STAGES = ((np.radians(45.0), 0.1), (np.pi, 0.15))  # of the wide search: half range of angle, least gain in score
+WIDE_STAGES = ((np.radians(45.0), 0.1), (np.pi, 0.15))  # stages of it: half range of angles, least gain in score
+WINDOW_SIGMAS = 3.5  # half width of a search window in standard deviations of odometry, within limits
+HALF_M_RANGE, HALF_RAD_RANGE = (0.1, 1.5), (np.radians(1.5), np.radians(60.0))  # limits of half widths, half ranges
+MIN_PULL_M, MIN_PULL_RAD = 0.03, np.radians(1.0)  # least scales of the penalty for leaving the predicted pose
+UNSTATED_SIGMA = np.array([0.05, 0.05, np.radians(4.0)])  # standard deviations of a motion without odometry at first
+UNSTATED_SIGMA_PER_S, MAX_GROWTH_S = np.array([0.5, 0.5, 0.6]), 1.0  # growth of these, and how long they grow
+USUAL_GAP_S = 0.2  # time between two scans without stamps
+MAX_MOTION_RATIO = 1.5  # largest ratio of a motion without odometry to the last one, over a longer gap
 MIN_GAIN_POINTS = 6.0  # least gain in score, in points that fit: it decides for scans with few points
 POINT_SIGMA_M = 0.02  # sigma of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion
 MAX_POINTS = 200  # most points of a scan that are matched
@@ -60,6 +67,8 @@ BATCH_KEYS = 6  # number of newest key scans against which scans are refined, if
 VIEW_AGREEMENT = Agreement(near_m=0.2, clear_m=0.5, beams=90)  # limits when a scan is compared with a key scan
 MAX_AGAINST_SHARE = 0.2  # greater shares of contradicting points are a contradiction: fewer are people
 MIN_JUDGED_POINTS = 60  # fewest compared points for a contradiction
+WIDE_VARIANCE = np.array([0.05, 0.05, 0.02])  # of the pose of a wide search: sigmas of 0.22 m and 8 degrees
+LAST_POSE_VARIANCE = np.array([1e-4, 1e-4, 2.5e-5])  # variance of the pose before: sigmas of 1 cm and 5 mrad
 MATCH_VARIANCE = 1e-5  # variance of a matched motion beyond that of the pose: 3 mm and 3 mrad
 
 
@@ -344,14 +353,13 @@ def predict(
 ) -> tuple[Floats, Floats]:
     """Predict poses of ``count`` scans after scan ``last``, and variances in their own frames, (N, 3) each."""
     if motions is None:
-        # Assume constant velocity. Standard deviations begin at 0.05 m and 4 degrees and grow by 0.5 m and 0.6 rad a
-        # second, for at most a second. After a longer gap the motion is at most 1.5 times the last one.
-        gap_s = gap_before_s = 0.2  # without stamps
+        # Assume constant velocity.
+        gap_s = gap_before_s = USUAL_GAP_S
         if stamps_s is not None and last > 0 and (np.diff(stamps_s[last - 1 : last + 2]) >= EQUAL_STAMPS_S).all():
             gap_before_s, gap_s = np.diff(stamps_s[last - 1 : last + 2])
         motion = between(poses[last - 1], poses[last]) if last > 0 else np.zeros(3)
-        sigma = np.array([0.05 + 0.5 * min(gap_s, 1.0)] * 2 + [np.radians(4.0) + 0.6 * min(gap_s, 1.0)])
-        return compose(poses[last], motion * min(gap_s / gap_before_s, 1.5))[None], sigma[None] ** 2
+        sigma = UNSTATED_SIGMA + UNSTATED_SIGMA_PER_S * min(gap_s, MAX_GROWTH_S)
+        return compose(poses[last], motion * min(gap_s / gap_before_s, MAX_MOTION_RATIO))[None], sigma[None] ** 2
     stated = motions[last : last + count]
     return chain_motions(poses[last], odometry.corrected(stated)), np.cumsum(odometry.variances(stated), axis=0)
 
@@ -361,12 +369,12 @@ def place_near(
     backwards: Floats | None, usual_score: float,
 ) -> PlacedScans:  # fmt: skip
     """Match N scans near predicted poses, (N, 3). Unusual misfits are also tried at ``backwards``: robots reverse."""
-    # Search windows of 3.5 standard deviations of odometry, within limits.
+    # Search the windows that odometry allows.
     points = [geometry.points_of(int(scan), MAX_POINTS) for scan in scans]
     sigma = np.sqrt(variance)
-    half_m = np.clip(3.5 * sigma[:, :2].max(axis=1), 0.1, 1.5)
-    half_rad = np.clip(3.5 * sigma[:, 2], np.radians(1.5), np.radians(60.0))
-    pull = Pull(max(float(sigma[:, :2].max()), 0.03), max(float(sigma[:, 2].max()), np.radians(1.0)))
+    half_m = np.clip(WINDOW_SIGMAS * sigma[:, :2].max(axis=1), *HALF_M_RANGE)
+    half_rad = np.clip(WINDOW_SIGMAS * sigma[:, 2], *HALF_RAD_RANGE)
+    pull = Pull(max(float(sigma[:, :2].max()), MIN_PULL_M), max(float(sigma[:, 2].max()), MIN_PULL_RAD))
     windows = SearchWindows(predicted, half_m, half_rad)
     best = match(window.grid, points, windows, min_score=ANY_SCORE, pull=pull)
     start, scores = best.poses[:, 0], best.scores[:, 0]
@@ -407,9 +415,9 @@ def search_widely(
         min_score = score + _min_gains(gain, points)
         matches = match(window.grid, points, windows, min_score=min_score, pull=Pull(WIDE_M, wide_rad))
         if matches.has_pose[0, 0]:
-            # Odometry was wrong: the prior is centred at the new pose, with sigmas of 0.22 m and 8 degrees.
-            start, variance = matches.poses[:, 0], np.array([[0.05, 0.05, 0.02]])
-            poses, information = _refine(geometry, window, np.array([scan]), start, start, variance)
+            # Odometry was wrong: the prior is centred at the new pose.
+            start = matches.poses[:, 0]
+            poses, information = _refine(geometry, window, np.array([scan]), start, start, WIDE_VARIANCE[None])
             return WideMatch(poses[0], information[0], float(matches.scores[0, 0]), is_near=stage == 0)
     return None
 
@@ -436,8 +444,7 @@ def _refine(
     jobs = len(scans)
     newest = slice(None, None if jobs == 1 else BATCH_KEYS)
     keys, poses = window.keys[newest], window.poses[newest]
-    # Add the variance of the pose before: 1 cm and 5 mrad.
-    own_information = np.array([np.diag(1.0 / (row + np.array([1e-4, 1e-4, 2.5e-5]))) for row in variance])
+    own_information = np.array([np.diag(1.0 / (row + LAST_POSE_VARIANCE)) for row in variance])
     to_world = rotation(prior_mean[:, 2])
     prior_information = to_world @ own_information @ np.swapaxes(to_world, 1, 2)
     refinement = Refinement(

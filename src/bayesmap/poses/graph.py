@@ -6,13 +6,11 @@
 2. `Precision` computes blocks of the inverse of H. This covariance matrix of thousands of poses is dense, but few
    blocks are needed. Blocks of poses that share a factor lie in the pattern of the factorised matrix, and are computed
    together (Takahashi, Fagan and Chin 1973). Other blocks are computed by solving for columns.
-3. `PoseGaussian` gives covariances of relative poses and draws of trajectories. Pairs of scans have errors in common:
+3. `PoseStudentT` gives covariances of relative poses and draws of trajectories. Pairs of scans have errors in common:
    walls that are not straight, scans bent by motion, people. A cluster bootstrap measures how far they bend the path
    (Cameron, Gelbach and Miller 2008): the forces of each pair of stretches of path get a random sign, and the poses
    follow these forces (docs/how/poses.md, "Uncertainty").
 """
-
-from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
@@ -139,7 +137,7 @@ def normal_equations(count: int, costs: Sequence[Quadratic]) -> tuple[Any, Float
     return matrix, gradient.ravel()
 
 
-def solve_step(count: int, costs: Sequence[Quadratic]) -> tuple[Floats, Precision]:
+def solve_step(count: int, costs: Sequence[Quadratic]) -> "tuple[Floats, Precision]":
     """Return the Gauss-Newton step of each pose in its own frame, (N, 3), and the factorised matrix."""
     matrix, gradient = normal_equations(count, costs)
     precision = Precision(matrix)
@@ -284,19 +282,19 @@ def relative_covariances(precision: Precision, poses: Floats, first: Indices, se
     return np.asarray(result + mixed + np.swapaxes(mixed, 1, 2))
 
 
-def sample_bends(poses: Floats, laser: Quadratic, precision: Precision) -> Floats:
+def sample_bends(poses: Floats, cost: Quadratic, precision: Precision) -> Floats:
     """Draw steps of poses (K, 3), in their own frames, under forces with random signs, (BOOTSTRAP_DRAWS, K, 3)."""
     # Label each pair by the two stretches of path that it ties together: a cluster.
     lengths_m, turns_rad = lengths_and_turns(wrap_yaw(np.diff(poses, axis=0)))
     stretch = (np.concatenate([[0.0], np.cumsum(lengths_m + TURN_M * turns_rad)]) / STRETCH_M).astype(np.intp)
-    pairs = np.sort(np.stack([stretch[laser.first], stretch[laser.second]], axis=1), axis=1)
+    pairs = np.sort(np.stack([stretch[cost.first], stretch[cost.second]], axis=1), axis=1)
     clusters, cluster = np.unique(pairs, axis=0, return_inverse=True)
     signs = np.random.default_rng(BOOTSTRAP_SEED).choice([-1.0, 1.0], (BOOTSTRAP_DRAWS, len(clusters)))
-    on_first, on_second = laser.end_gradients()
+    on_first, on_second = cost.end_gradients()
     bends = np.empty((BOOTSTRAP_DRAWS, len(poses), 3))
     for n in range(BOOTSTRAP_DRAWS):
         sign = signs[n][cluster.ravel()][:, None]
-        force = laser.sum_over_poses(len(poses), sign * on_first, sign * on_second)
+        force = cost.sum_over_poses(len(poses), sign * on_first, sign * on_second)
         bends[n] = precision.solve(force).reshape(-1, 3)
     return bends
 
@@ -312,7 +310,7 @@ def bend_covariances(bends: Floats, poses: Floats, first: Indices, second: Indic
 
 
 @dataclass(frozen=True, eq=False)
-class PoseGaussian:
+class PoseStudentT:
     """Student's t distribution of K poses, by the curvature of their cost: the log density to second order.
     The cost has M terms, each over a relative pose. The scale matrix of Student's t is the inverse of the curvature
     plus (dof - 2) / dof times the covariance of shared errors, which is the mean square of ``bends``.
@@ -325,6 +323,7 @@ class PoseGaussian:
     curvature: Floats  # second derivatives of each term by its relative pose, (M, 3, 3)
     force: Floats  # first derivatives, (M, 3), which cancel in total. Zero where terms err independently.
     dof: float = DEGREES_OF_FREEDOM  # degrees of freedom of Student's t
+    # Saved files have the names of the next two.
     elsewhere: Floats | None = None  # steps to alternative poses, times the root of their probabilities, (A, K, 3)
     by_odometry: Floats | None = None  # steps by the standard errors of odometry's systematic error, (C, K, 3)
 
@@ -337,10 +336,10 @@ class PoseGaussian:
     def bends(self) -> Floats:
         """Steps of the poses by shared errors of terms of the cost and of odometry, and to alternatives, (N, K, 3)."""
         shared = sample_bends(self.poses, self._cost, self.precision)
-        others = [steps for steps in (self.elsewhere, self.by_odometry) if steps is not None]
+        added = [steps for steps in (self.elsewhere, self.by_odometry) if steps is not None]
         # A covariance is the mean over all bends, so each kind is scaled up to the number of all.
-        count = len(shared) + sum(map(len, others))
-        return np.concatenate([shared * np.sqrt(count / len(shared)), *(steps * np.sqrt(count) for steps in others)])
+        count = len(shared) + sum(map(len, added))
+        return np.concatenate([shared * np.sqrt(count / len(shared)), *(steps * np.sqrt(count) for steps in added)])
 
     def steps_from_changes(self, changes: Floats) -> Floats:
         """Return steps of the poses, (N, K, 3), if the last M relative poses change by ``changes``, (N, M, 3)."""

@@ -6,8 +6,6 @@ A scan that was aligned wrongly stays wrong, because the pairs that would move i
 explains it, a wide window is searched. `flag_unexplained` marks the scans that stay unexplained.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -58,9 +56,7 @@ class KeyAlignment:
     def align(
         self, stage: str, poses: Floats, factors: Factors, rounds: int = 8, *, coarse: bool, firm: Mask | None = None
     ) -> Alignment:
-        """Align the key scans with odometry's factors.
-        Poses may be decimetres off if ``coarse``. ``firm`` is the mask of factors without slip of the wheels, (K - 1,).
-        """
+        """Align the key scans, roughly if ``coarse``. ``firm`` masks odometry's factors without slip, (K - 1,)."""
 
         def select_pairs(poses: Floats) -> Pairs:
             return overlapping_pairs(self.geometry, poses, MAX_REACH_SHARE * self.half_width_m)

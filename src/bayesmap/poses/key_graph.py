@@ -10,8 +10,6 @@ visit is right are ``VISIT_ODDS + PLACE_ODDS (places - 1) - D``. On public logs 
 of wrong visits 11 to 20 (docs/lab/poses.md).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -64,7 +62,7 @@ class ClosedGraph:
 
     closures: Closures  # loop closures of the last round
     joined: Mask  # mask of the segments of the path that are joined to an earlier segment, (P,)
-    weighed: WeighedGraph  # poses of the keys, Geman and McClure's weights of the closures, and alternative poses
+    weighed: "WeighedGraph"  # poses of the keys, Geman and McClure's weights of the closures, and alternative poses
 
 
 def close_loops(
@@ -93,7 +91,7 @@ def close_loops(
 def _close_in_rounds(
     path: KeyPath, chain: Factors, rounds: tuple[Search, ...], half_width_m: float,
     on_progress: Callable[[int, Floats], None] | None = None, *, within_segments: bool = False,
-) -> tuple[WeighedGraph, Closures]:  # fmt: skip
+) -> "tuple[WeighedGraph, Closures]":  # fmt: skip
     """Close loops in rounds, of the path or only within its segments. Returns the graph and the last closures."""
     poses, weights, closures = path.poses, np.empty(0), no_closures()
     for number, search in enumerate(rounds, start=1):
@@ -111,7 +109,7 @@ def _close_in_rounds(
     return weighed, closures
 
 
-def _is_guess_confirmed(path: KeyPath, segment: int, closures: Closures, weighed: WeighedGraph) -> bool:
+def _is_guess_confirmed(path: KeyPath, segment: int, closures: Closures, weighed: "WeighedGraph") -> bool:
     """Return whether closures confirm the relative pose of a segment and those before, as ``path`` has it."""
     guess, poses = path.poses, weighed.poses
     is_across = (path.segments[closures.first] < segment) & (path.segments[closures.second] == segment)
@@ -166,7 +164,7 @@ class WeighedGraph:
 
 
 def find_alternatives(weighed: WeighedGraph, keys: Indices, poses: Floats) -> tuple[Alternatives, Floats | None]:
-    """Return the alternatives to the keys' poses, (K, 3), and the steps to them that `PoseGaussian.elsewhere` holds."""
+    """Return the alternatives to the keys' poses, (K, 3), and the steps to them that `PoseStudentT.elsewhere` holds."""
     if not len(weighed.probabilities):
         return NO_ALTERNATIVES, None
     steps = wrap_yaw(between(weighed.poses[None], weighed.alternatives))

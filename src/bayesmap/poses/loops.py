@@ -10,8 +10,6 @@
 4. Keep closures whose relative pose is confirmed by closures of nearby key scans (`select_supported`).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, fields, replace
 
@@ -33,6 +31,9 @@ MAX_SCAN_POINTS = 180  # points of each scan of a submap that are matched
 TURN_M = 0.5  # length of path that counts as much as a turn by one radian, metres
 MIN_LOOP_M = 8.0  # length of a loop along the path, metres
 WINDOW_SIGMAS = 3.0  # half the window in standard deviations
+MIN_HALF_M, MIN_HALF_RAD = 0.4, np.radians(4.0)  # least half width and half range of angles of a window
+VIEW_SHARE, MAX_VIEW_M = 0.7, 8.0  # scans nearer than this share of a grid's half width, or this, may see one surface
+METRES_PER_RAD = 0.7  # difference of positions that counts as much as a radian of yaw in the cost of a pair
 BEND_SIGMA = np.array([0.3, 0.3, np.radians(5.0)])  # standard deviations of bends that the graph does not model
 VISIT_GAP_M = 4.0  # minimum gap along the path between two visits of a place, metres
 MAX_VIEW_POINTS = 60  # points of a scan from which the middle of its view is computed
@@ -42,12 +43,16 @@ EARLIER_VIEW_HALF_M = 1.0  # half length of the path whose scans `_ends_agree` c
 RESOLUTION_M, SIGMA_M = 0.1, 0.1  # width of a cell and scale of submaps' likelihood grids
 GRIDS_AT_ONCE = 24  # number of submaps' grids in memory
 SUBMAP_MODES = ModeRule(2, min_score_ratio=0.92, apart_m=0.6, apart_rad=np.radians(8.0))  # poses that are refined
-MIN_COSINE = 0.7  # cosine between the normals of paired points
+CONVERGENCE = Convergence(sigma_m=0.02, steps=15, reach_m=(0.4, 0.12), scale_m=(0.2, 0.05), min_cosine=0.7)
+WEAK_PRIOR_INFORMATION = np.diag([1.0, 1.0, 4.0])  # of the refinement's prior: standard deviations 1 m, 1 m, 0.5 rad
+MIN_INFORMATION = (1e-2, 1e-2, 1e-1)  # added to the laser's, which may be singular: sigmas of 10 m, 10 m and 3 rad
 VIEW_AGREEMENT = Agreement(near_m=0.15, clear_m=0.4, beams=90)  # limits for scans of two submaps
 MIN_MATCHED_SHARE = 0.2  # share of matching points
 MAX_AGAINST_SHARE = 0.15  # share of contradicting points among decided points
 MIN_CLOSURE_SIGMA = np.array([0.02, 0.02, np.radians(0.3)])  # standard deviations of a closure: submaps bend
-SUPPORT_M, MIN_SUPPORT = 5.0, 2  # distance along the path of closures that support each other, and how many must
+SUPPORT_M, MIN_SUPPORT = 5.0, 2  # distance along the path of closures that support each other, and least number
+AGREE_M, AGREE_M_PER_M = 0.15, 0.02  # largest difference of positions of closures that agree, and per metre of path
+AGREE_RAD, AGREE_RAD_PER_M = np.radians(2.0), np.radians(0.3)  # largest difference of their yaws, and per metre
 MAX_SLIP_M, MAX_SLIP_RAD = 0.4, np.radians(6.0)  # a refinement that moves further has slid onto other surfaces
 
 
@@ -64,7 +69,7 @@ class KeyPath:
     def __len__(self) -> int:
         return len(self.keys)
 
-    def at(self, poses: Floats) -> KeyPath:
+    def at(self, poses: Floats) -> "KeyPath":
         """Return this path with its keys at other poses, (K, 3)."""
         return key_path(self.geometry, self.keys, poses, np.diff(self.segments, prepend=self.segments[0]) > 0)
 
@@ -144,8 +149,8 @@ def find_closures(
     if not len(first):
         return no_closures()
     # 2. Match their submaps, in windows of one half width for x and y.
-    half_m = np.clip(WINDOW_SIGMAS * sigma[:, :2].max(axis=1), 0.4, search.max_half_m)
-    half_rad = np.clip(WINDOW_SIGMAS * sigma[:, 2], np.radians(4.0), search.max_half_rad)
+    half_m = np.clip(WINDOW_SIGMAS * sigma[:, :2].max(axis=1), MIN_HALF_M, search.max_half_m)
+    half_rad = np.clip(WINDOW_SIGMAS * sigma[:, 2], MIN_HALF_RAD, search.max_half_rad)
     centres = between(path.poses[first], path.poses[second])
     closures = match_submaps(path, first, second, centres, half_m, half_rad, half_width_m, search.min_score)
     # 3. and 4. Drop closures that the graph or nearby closures do not confirm.
@@ -158,7 +163,7 @@ def _candidate_pairs(
     """Return earlier and later key scans to try, (M,) each, and standard deviations of their relative poses, (M, 3)."""
     # Select pairs of places that are far apart along the path and near each other on the map.
     path_m, poses, places = path.path_m, path.poses, path.places(search.spacing_m)
-    view_m = min(0.7 * half_width_m, 8.0)  # distance from which two scans may still see one surface
+    view_m = min(VIEW_SHARE * half_width_m, MAX_VIEW_M)
     earlier, later = np.nonzero(path_m[places][:, None] < path_m[places] - MIN_LOOP_M)
     earlier, later = places[earlier], places[later]
     distance_m = np.hypot(*(poses[earlier, :2] - poses[later, :2]).T)
@@ -175,7 +180,7 @@ def _candidate_pairs(
     is_near = distance_m < np.minimum(WINDOW_SIGMAS * sigma[:, :2].max(axis=1), search.max_half_m) + view_m
     earlier, later, distance_m, sigma = earlier[is_near], later[is_near], distance_m[is_near], sigma[is_near]
     # Two costs of a pair: the difference of poses, and, since scans may face each other, the distance of their views.
-    pose_cost = distance_m + 0.7 * np.abs(wrap_yaw(poses[earlier] - poses[later])[:, 2])
+    pose_cost = distance_m + METRES_PER_RAD * np.abs(wrap_yaw(poses[earlier] - poses[later])[:, 2])
     middles = _view_middles(path)
     view_cost = np.hypot(*(middles[earlier] - middles[later]).T)
     # Take the best pair of each visit, from the best visits of each later place.
@@ -221,7 +226,7 @@ def select_supported(closures: Closures, path: KeyPath) -> Closures:
     lengths_m, turns_rad = lengths_and_turns(closures.disagreements(path.poses, a, b))
     # The tolerance grows with the length of path between the ends.
     apart_m = first_apart_m[a, b] + second_apart_m[a, b]
-    agrees = (lengths_m < 0.15 + 0.02 * apart_m) & (turns_rad < np.radians(2.0) + np.radians(0.3) * apart_m)
+    agrees = (lengths_m < AGREE_M + AGREE_M_PER_M * apart_m) & (turns_rad < AGREE_RAD + AGREE_RAD_PER_M * apart_m)
     support = np.bincount(a[agrees & has_other_end[a, b]], minlength=len(closures))
     return replace(closures, support=support).select(support >= MIN_SUPPORT)
 
@@ -277,11 +282,10 @@ def _refine(path: KeyPath, first: Indices, second: Indices, start: Floats, score
     members = [path.submap_members(int(key), EARLIER_HALF_M) for key in first]
     offsets, others = offsets_of(members), np.concatenate(members)
     other_poses = between(path.poses[np.repeat(first, np.diff(offsets))], path.poses[others])
-    weak_prior = np.tile(np.diag([1.0, 1.0, 4.0]), (len(first), 1, 1))
+    weak_prior = np.tile(WEAK_PRIOR_INFORMATION, (len(first), 1, 1))
     refinement = Refinement(path.scans(second), offsets, path.scans(others), other_poses, start, start, weak_prior)
-    convergence = Convergence(sigma_m=0.02, steps=15, reach_m=(0.4, 0.12), scale_m=(0.2, 0.05), min_cosine=MIN_COSINE)
-    refined, laser_information, _ = refine_scans(path.geometry, refinement, convergence, path.geometry.threads)
-    covariance = np.linalg.inv(laser_information + np.diag([1e-2, 1e-2, 1e-1])) + np.diag(MIN_CLOSURE_SIGMA**2)
+    refined, laser_information, _ = refine_scans(path.geometry, refinement, CONVERGENCE, path.geometry.threads)
+    covariance = np.linalg.inv(laser_information + np.diag(MIN_INFORMATION)) + np.diag(MIN_CLOSURE_SIGMA**2)
     information = np.linalg.inv(covariance)
     has_stayed = are_within(between(start, refined), MAX_SLIP_M, MAX_SLIP_RAD)
     is_confirmed = has_stayed & _ends_agree(path, first, second, refined)

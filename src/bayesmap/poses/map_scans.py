@@ -4,8 +4,6 @@
 `thin_for_map` drops beams and scans that see walls with many hits.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -9,8 +9,6 @@ Fox 2005, section 6.4, without the logarithm). Level h of the pyramid holds at (
 fall, from 0 to 1, less a penalty for the distance from the centre of the window.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

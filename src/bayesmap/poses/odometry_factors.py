@@ -3,8 +3,6 @@
 `StatedOdometry.first_factors` takes the noise that the front end learnt; `fit_errors` fits it to aligned key scans.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -13,7 +11,7 @@ import numpy as np
 from bayesmap.poses.alignment import Alignment
 from bayesmap.poses.calibration import OdometryFit, compensate_lag, fit_odometry, motion_variances, stated_motions
 from bayesmap.poses.front_end import UNKNOWN_SIGMA, Track
-from bayesmap.poses.graph import Factors, PoseGaussian, relative_covariances
+from bayesmap.poses.graph import Factors, PoseStudentT, relative_covariances
 from bayesmap.poses.log_checks import correct_late_odometry
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.arrays import Indices, Mask
@@ -35,7 +33,7 @@ class StatedOdometry:
     impossible: Mask  # mask of motions that no robot can have made, (S - 1,)
     used: bool  # False if motions are inferred from the scans alone
 
-    def reversed_at(self, is_reversed: Mask) -> StatedOdometry:
+    def reversed_at(self, is_reversed: Mask) -> "StatedOdometry":
         """Return odometry with the motions before the scans of a mask, (S,), reversed."""
         if not (self.used and is_reversed.any()):
             return self
@@ -63,8 +61,8 @@ class StatedOdometry:
         return fit, self._factors(track, poses, fit.slope, fit.noise.variances, fit.lag_s)
 
     def with_systematic_error(
-        self, gaussian: PoseGaussian, track: Track, fit: OdometryFit | None, factors: Factors
-    ) -> PoseGaussian:
+        self, gaussian: PoseStudentT, track: Track, fit: OdometryFit | None, factors: Factors
+    ) -> PoseStudentT:
         """Return a Gaussian whose covariances hold the uncertainty of odometry's systematic error.
         This error is common to the whole path: where odometry alone knows the length of a corridor, all of the length
         may be wrong by some per cent. The ``factors`` of odometry must be the last terms of ``gaussian``.

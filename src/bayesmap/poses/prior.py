@@ -4,8 +4,6 @@ A prior (`KnownPoses`, `UncertainPoses`, `Odometry`, `Motions`) is a value that 
 states it becomes a *law*, a density over the poses of all scans (`PoseLaw`), which samplers use. Laws follow priors.
 """
 
-from __future__ import annotations
-
 import hashlib
 import math
 from abc import ABC, abstractmethod

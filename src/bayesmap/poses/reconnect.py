@@ -7,8 +7,6 @@ Let places vote for relative poses, and merge two segments if one pose clearly w
 merged segments to one frame (`_assemble`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple

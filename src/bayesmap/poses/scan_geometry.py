@@ -4,8 +4,6 @@
 (`range_noise_m`), and lets a kernel compute points and normals. `ScanGeometry` holds the result.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -48,7 +46,7 @@ class Fans:
     beam_of_angle: NDArray[np.int32]  # nearest to equal bins from -pi to pi, (layouts, bins); -1 if none is near
 
     @classmethod
-    def of(cls, angles_rad: Floats, n_scans: int) -> Fans:
+    def of(cls, angles_rad: Floats, n_scans: int) -> "Fans":
         """Return the fans of beams at ascending angles, (1, A) for all scans or (S, A), NaN past a scan's last beam."""
         beams = np.isfinite(angles_rad).sum(axis=1)
         # Number the layouts, which are rows of equal angles, and take the beams of one scan of each.
@@ -68,7 +66,7 @@ class Fans:
             beam_of_angle=np.array([_beam_of_angle(fan, step, bins) for fan, step in layouts]),
         )  # fmt: skip
 
-    def select(self, scans: Indices) -> Fans:
+    def select(self, scans: Indices) -> "Fans":
         """Return the fans of N scans by their indices, (N,)."""
         return replace(
             self, beams=self.beams[scans], step_rad=self.step_rad[scans], full_circle=self.full_circle[scans],
@@ -122,7 +120,7 @@ class ScanGeometry:
         """The structs that kernels read, by name: a cache that `bayesmap.kernels.match.scan_geometry` fills."""
         return {}
 
-    def select(self, scans: Indices) -> ScanGeometry:
+    def select(self, scans: Indices) -> "ScanGeometry":
         """Return a copy of the geometry of N scans by their indices, (N,)."""
         from bayesmap.kernels.match.scan_geometry import select_rows
 

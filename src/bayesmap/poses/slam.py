@@ -6,8 +6,6 @@ calibrate odometry and laser (`calibration`), and place the scans between key sc
 are kept on disk (`StageCache`). `StageReport` calls the user's functions. More: docs/how/poses.md.
 """
 
-from __future__ import annotations
-
 import hashlib
 import math
 import os

@@ -3,14 +3,12 @@
 Key scans have a joint distribution. Each other scan moves with the nearest key, plus an uncertainty of its own.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from bayesmap.poses.calibration import OdometryFit
-from bayesmap.poses.graph import Factors, PoseGaussian
+from bayesmap.poses.graph import Factors, PoseStudentT
 from bayesmap.poses.prior import Odometry
 from bayesmap.space.arrays import Indices, Mask, matrix_roots
 from bayesmap.space.planar import Floats, between, between_jacobians, compose, frame_jacobians, rotation
@@ -81,7 +79,7 @@ class InferredTrajectory:
     poses: Floats  # poses of the laser in the map's frame, in which the first scan is where odometry stated it, (S, 3)
     stamps_s: Floats | None  # times of the scans, (S,), ascending
     keys: Indices  # indices of the key scans, (K,)
-    gaussian: PoseGaussian  # Student's t distribution of the poses of the key scans; the name is that in saved files
+    gaussian: PoseStudentT  # Student's t distribution of the poses of the key scans; the name is that in saved files
     nearest_key: Indices  # index among the keys of each scan's nearest key, (S,)
     own_covariance: Floats  # scale matrix of each scan's Student's t about its key: no covariance; own frame, (S, 3, 3)
     explained: Floats  # share of each scan's points that other scans explain, from 0 to 1, (S,)

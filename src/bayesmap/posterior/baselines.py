@@ -6,8 +6,6 @@ posterior. `fit_baseline` and `fit_external_map` find the sensor, the hit depth 
 `maximise` the score of training scans that are left out of the counts (`bayesmap.posterior.heldout.make_folds`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

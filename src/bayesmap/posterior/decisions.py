@@ -5,8 +5,6 @@ FSMI for independent cells and beams: fast, but it counts shared information of 
 compares the best by `expected_information`, bounds of the information of a whole scan from joint draws.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, fields, replace
 from functools import partial
@@ -169,10 +167,10 @@ def beam_information(
     return np.asarray(per_beam.sum(axis=1))
 
 
-def best_views(nats: Floats, poses: Floats, count: int, min_distance_m: float) -> Indices:
+def best_views(information_nats: Floats, poses: Floats, count: int, min_distance_m: float) -> Indices:
     """Select the most informative poses that are not close to each other, best first: indices, at most ``count``."""
     best: list[int] = []
-    for i in np.argsort(-nats, kind="stable"):
+    for i in np.argsort(-information_nats, kind="stable"):
         if all(math.hypot(*(poses[i, :2] - poses[j, :2])) >= min_distance_m for j in best):
             best.append(int(i))
         if len(best) == count:
@@ -184,16 +182,16 @@ class HasDraws(Protocol):
     """Draws of the map with their prior: a posterior, or chains that are still running."""
 
     @property
-    def prior(self) -> CellPrior:
+    def prior(self) -> "CellPrior":
         """The prior of the cells."""
 
     @property
-    def draws(self) -> Draws:
+    def draws(self) -> "Draws":
         """The draws of the map."""
 
 
 def path_free_probability(posterior: HasDraws, path: ArrayLike, radius_m: float) -> routes.FreeProbability:
-    """Return a disc's chance to follow a path. Raises `BadInput` without draws, off the map, or for a radius <= 0."""
+    """Return a disc's probability of a free path. Raises `BadInput` without draws, off the map, or if radius <= 0."""
     _check_draws(posterior, "free_probability")
     corners = routes.check_path(path)
     grid = posterior.draws.grid
@@ -232,7 +230,7 @@ def blocked_by_cell(posterior: HasDraws, radius_m: float, on_progress: OnShare =
 
 def information_of(
     posterior: Posterior, poses: ArrayLike, angles_rad: ArrayLike | None = None, *, max_range_m: float | None = None,
-    sensor: SensorModel | None = None, draws: int | None = None, seed: int = 0, device: str = "cpu",
+    sensor: "SensorModel | None" = None, draws: int | None = None, seed: int = 0, device: str = "cpu",
     on_progress: OnShare = ignore_share,
 ) -> InformationGain:  # fmt: skip
     """Compute the expected information of one more scan from each pose. See `bayesmap.Run.information_gain`."""
@@ -265,7 +263,7 @@ def mean_beam_information(posterior: Posterior, poses: Floats, fan: Fan, device:
     return np.asarray(np.mean([information(occupied) for occupied in maps], axis=0))
 
 
-def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
+def typical_sigma_m(sensor: "SensorModel", max_range_m: float) -> float:
     """Estimate the standard deviation of hits at a quarter of the range, m: half the middle 68 % of 4000 samples."""
     from bayesmap.sensors.model import RangeLimits
 

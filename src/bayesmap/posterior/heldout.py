@@ -4,8 +4,6 @@
 fitted to the scans of each fold, predicted by a map of the others (`bayesmap.posterior.baselines`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -130,14 +128,14 @@ class Fold:
     rays: Rays  # their beams
 
     @classmethod
-    def of(cls, hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> Fold:
+    def of(cls, hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> "Fold":
         """Trace the fold's beams, as far as their density varies."""
         from bayesmap.kernels.rays import trace_rays
 
         reach_m = np.where(np.isfinite(scans.ranges_m), scans.ranges_m + PAST_READING_M, scans.max_range_m).ravel()
         return cls(hits, passes, scans, trace_rays(scans, grid, reach_m=reach_m))
 
-    def thinned(self) -> Fold:
+    def thinned(self) -> "Fold":
         """Return the fold with every `THIN`-th of its scans, for a rough search. The counts stay."""
         return Fold.of(self.hits, self.passes, self.scans.select(slice(None, None, THIN)), self.rays.grid)
 

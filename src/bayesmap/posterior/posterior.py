@@ -3,8 +3,6 @@
 `chains_of` gives chains back to continue them; `log_p_by_reading` and `dataset_of` convert it for tools like ArviZ.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -39,7 +37,7 @@ class Posterior:
     In cells that are not ``observed``, the posterior is the prior, or little more.
     """
 
-    scans: Scans
+    scans: Scans  # the scans that were used
     sensor: SensorModel | None  # fitted or given; None in a loaded run with a model of the user's own
     prior: CellPrior
     settings: dict[str, Any]  # method, prior, sensor, seed and schedule as JSON values
@@ -51,8 +49,8 @@ class Posterior:
     warmup_log_joint: Floats  # log joint of every warm-up sweep, nats, (chains, warm-up sweeps)
     snapshot: Snapshot  # state of the chains
     finished: bool  # false if the run was stopped early
-    seconds: dict[str, float]  # "trace", "warm_start", "sampling", "total", "fit"
-    counts: dict[str, int]  # "scans", "beams", "incidences", ...
+    seconds: dict[str, float]  # times of the run's parts, by name: "trace", "warm_start", "sampling", "total", "fit"
+    counts: dict[str, int]  # numbers of "scans", "beams" and "incidences"
     log_weights: Floats | None = None  # normalised log weights of all particles, for "importance"
     statistics: Mapping[str, Floats] = field(default_factory=dict)  # such as "belief_changes", (rounds,)
     log_evidence: float | None = None  # log p(readings), exact or estimated, where the method gives it
@@ -144,7 +142,8 @@ def valid_readings(posterior: Posterior) -> tuple[Indices, Indices]:
 
 def log_p_by_reading(posterior: Posterior, device: str = "cpu") -> Singles:
     """Compute log p(reading | cells, poses) of every valid reading in every draw, nats, (chains, draws, n).
-    Densities are per metre for ranges; a reading's stop is summed out. Raises `BadInput` without draws or known sensor.
+    Densities are per metre for ranges, summed over the cells in which a beam may stop. Raises `BadInput` without draws,
+    or for a sensor model of the user's own.
     """
     from bayesmap.kernels.predict.density import ScanLikelihood, device_maps
 
@@ -161,11 +160,11 @@ def log_p_by_reading(posterior: Posterior, device: str = "cpu") -> Singles:
     for (chain, draw), cells in zip(draws.numbers(), stops, strict=True):
         poses = scans.poses if drawn_poses is None else drawn_poses[chain, draw]
         maps = device_maps([cells[None]], posterior.grid, depth, device=device)
-        log_p[chain, draw] = likelihood.beams(maps, poses, scan, np.zeros_like(scan))[valid]
+        log_p[chain, draw] = likelihood.beams(maps, poses, scan, map_index=np.zeros_like(scan))[valid]
     return log_p
 
 
-def dataset_of(posterior: Posterior, with_readings: bool) -> xarray.Dataset:
+def dataset_of(posterior: Posterior, with_readings: bool) -> "xarray.Dataset":
     """Return draws, densities and marginals as xarray. Raises `BadInput` as `log_p_by_reading`, or without xarray."""
     try:
         import xarray

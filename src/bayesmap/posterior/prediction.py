@@ -6,8 +6,6 @@ with P(reading <= z) >= q. Beams of one drawn scan share a draw of the map, so d
 readings with their laws. The first functions of the file report the progress of tasks with several stages.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -110,19 +108,19 @@ class ScanPredictor:
     """Draws of a map on a device, ready to predict scans."""
 
     grid: Grid
-    draws: DeviceMaps
+    draws: "DeviceMaps"
     sensor: SensorModel  # the law of a reading given where its beam stops
     limits: RangeLimits  # the sensor's span
 
     @classmethod
-    def of(cls, predictor: Predictor, limits: RangeLimits, device: str = "cpu") -> ScanPredictor:
+    def of(cls, predictor: Predictor, limits: RangeLimits, device: str = "cpu") -> "ScanPredictor":
         """Put a predictor's draws on a device: 4 bytes for each cell of each draw, 32 where cells have surfaces."""
         from bayesmap.kernels.predict.density import device_maps
 
         draws = device_maps(predictor.batches(), predictor.grid, predictor.hit_depth, device=device)
         return cls(predictor.grid, draws, predictor.sensor, limits)
 
-    def thinned(self, max_draws: int) -> ScanPredictor:
+    def thinned(self, max_draws: int) -> "ScanPredictor":
         """Return this predictor with at most ``max_draws`` of the draws, evenly spread."""
         return replace(self, draws=self.draws.thinned(max_draws))
 
@@ -263,7 +261,7 @@ class Fan:
     def of(
         cls, caller: str, posterior: Posterior, angles_rad: ArrayLike | None, max_range_m: float | None,
         sensor: SensorModel | None,
-    ) -> Fan:  # fmt: skip
+    ) -> "Fan":  # fmt: skip
         """Return the fan of a run's scans, or of the arguments that are given. Raises `BadInput` if one is invalid."""
         scans, law = posterior.scans, posterior.sensor if sensor is None else sensor
         if law is None:
@@ -275,7 +273,7 @@ class Fan:
         return cls(angles, RangeLimits(min(scans.min_range_m, longest_m), float(longest_m)), law)
 
 
-def draw_readings(maps: DeviceMaps, fan: Fan, poses: Floats, draw: Indices, key: tuple[int, ...]) -> Floats:
+def draw_readings(maps: "DeviceMaps", fan: Fan, poses: Floats, draw: Indices, key: tuple[int, ...]) -> Floats:
     """Draw the readings of a scan at each of n poses, (n, A), each in the map of index ``draw``. ``key`` seeds them."""
     from bayesmap.kernels.predict.view import draw_scan_stops
     from bayesmap.kernels.random import mix

@@ -12,8 +12,6 @@ Beams of one scan share the error of its pose, so standard errors come from a bo
 (`ScanBlocks`). `score_prediction` computes a `Score`, and `compare_scores` compares two.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -32,6 +30,7 @@ REPLICATES = 1000  # replicates of the bootstrap: standard errors are then accur
 INTERVALS = 100  # intervals of u at whose ends its distribution is compared with the uniform one
 LEVELS = (0.5, 0.8, 0.95)  # probabilities of central intervals
 BINS = 20  # bins of the histogram of u
+RELIABILITY_BINS = 10  # bins of the probabilities of events
 PIT_KEY, BOOTSTRAP_KEY = 0x917, 0xB00  # keys of the random numbers v and of the bootstrap, with the seed
 MIX_TIME, QUANTILES_TIME, EVENTS_TIME = 0.5, 12.0, 6.0  # computing times relative to the forecast of one draw
 
@@ -51,11 +50,11 @@ def inside(pit: Floats, level: float) -> Mask:
     return np.abs(pit - 0.5) <= 0.5 * level
 
 
-def binary_scores(chance: Floats, happened: Mask) -> tuple[Floats, Floats]:
+def binary_scores(p: Floats, happened: Mask) -> tuple[Floats, Floats]:
     """Compute each event's Brier score ``(p - y)^2`` and log loss ``-log p`` or ``-log(1 - p)``, (n,) each."""
-    brier = (chance - happened) ** 2
+    brier = (p - happened) ** 2
     with np.errstate(divide="ignore"):
-        loss = -np.where(happened, np.log(chance), np.log1p(-chance))
+        loss = -np.where(happened, np.log(p), np.log1p(-p))
     return brier, loss
 
 
@@ -79,7 +78,7 @@ class ScanBlocks:
     weights: Floats  # number of times that each replicate draws each block, (R, S)
 
     @classmethod
-    def make(cls, block: Indices, seed: int = 0, replicates: int = REPLICATES) -> ScanBlocks:
+    def make(cls, block: Indices, seed: int = 0, replicates: int = REPLICATES) -> "ScanBlocks":
         """Draw the replicates: each draws S of the S blocks, with replacement. ``block`` may skip numbers."""
         _, compact = np.unique(block, return_inverse=True)
         n_blocks = int(compact.max()) + 1 if len(compact) else 1
@@ -118,13 +117,13 @@ class ScanBlocks:
         return distance, float((distances >= distance).mean())
 
 
-def reliability(chance: Floats, happened: Mask) -> list[tuple[float, float, int]]:
-    """Group events by predicted chance. Returns (mean chance, share that happened, count) for each non-empty bin."""
-    # Chances of first hits are mostly small: bins have equal widths in log10 chance from -3, or less, to 0.
-    edges = np.concatenate([[0.0], np.logspace(-3, 0, 10)])
-    bin_of_event = np.clip(np.searchsorted(edges, chance, side="left") - 1, 0, 9)
-    counts, sums, n_happened = (np.bincount(bin_of_event, values, minlength=10) for values in (None, chance, happened))
-    return [(float(p / n), float(k / n), int(n)) for p, k, n in zip(sums, n_happened, counts, strict=True) if n]
+def reliability(p: Floats, happened: Mask) -> list[tuple[float, float, int]]:
+    """Group events by probability. Returns (mean probability, share that happened, count) for each non-empty bin."""
+    # First hits are mostly improbable: one bin lies below 0.001, and the others have equal widths in log10 up to 1.
+    edges = np.concatenate([[0.0], np.logspace(-3, 0, RELIABILITY_BINS)])
+    bin_of_event = np.clip(np.searchsorted(edges, p, side="left") - 1, 0, RELIABILITY_BINS - 1)
+    counts, sums, n_happened = (np.bincount(bin_of_event, x, minlength=RELIABILITY_BINS) for x in (None, p, happened))
+    return [(float(total / n), float(k / n), int(n)) for total, k, n in zip(sums, n_happened, counts, strict=True) if n]
 
 
 def beam_log_scores(
@@ -175,7 +174,7 @@ class Score:
         pit_distance, pit_p_value: result of `ScanBlocks.uniformity` for ``pit``.
         events: number of first-hit events: chords of beams in cells that readings reached.
         brier, log_loss: mean over events of the two scores of "does the reading end here?". Lower is better.
-        reliability: groups of events by predicted chance: (mean chance, share that happened, count).
+        reliability: groups of events by predicted probability: (its mean, share that happened, count).
         p_no_return: mean predicted probability of no return, and observed share.
         sensor: description of the prediction's sensor model.
         hit_depth: depth of a stop in a plain cell, as a fraction of the beam's chord.
@@ -227,7 +226,7 @@ class Score:
             **_numbers(pit_distance=self.pit_distance, pit_p_value=self.pit_p_value),
             "events": self.events, "brier": self.brier.as_json(), "log_loss": self.log_loss.as_json(),
             "reliability": [
-                {"predicted": chance, "observed": share, "events": count} for chance, share, count in self.reliability
+                {"predicted": p, "observed": share, "events": count} for p, share, count in self.reliability
             ],
             "no_return": _numbers(predicted=predicted, observed=observed), "sensor": self.sensor,
             "hit_depth": self.hit_depth,
@@ -253,7 +252,7 @@ def score_prediction(
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     sensor, range_m = predictor.sensor, scans.ranges_m.ravel()
     rays = trace_rays(scans, predictor.grid, device=device)
-    # Predict: density and transform of each reading, quantiles of its distribution, and chances of first hits.
+    # Predict: density and transform of each reading, quantiles of its distribution, and probabilities of first hits.
     depth, n_draws = predictor.hit_depth, predictor.draws
     times = (n_draws, MIX_TIME * n_draws, QUANTILES_TIME, EVENTS_TIME)
     on_forecast, on_mix, on_quantiles, on_events = split_progress(on_progress, *times)
@@ -262,9 +261,9 @@ def score_prediction(
     law = mix_stops(rays, report_batches(predictor.batches(rays.touched), n_draws, on_mix), depth, device=device)
     # Quantiles at the ends of the intervals of all levels.
     ends = np.array(sorted({0.5 - side * 0.5 * level for level in LEVELS for side in (1, -1)}))
-    quantiles = np.clip(range_quantiles(law, ends, sensor, device)[valid], limits.min_m, limits.max_m)
+    quantiles_m = np.clip(range_quantiles(law, ends, sensor, device)[valid], limits.min_m, limits.max_m)
     on_quantiles(1.0)
-    chance, stopped = first_hit_events(law, sensor, device)
+    p_first_hit, stopped = first_hit_events(law, sensor, device)
     on_events(1.0)
     # Score the valid readings, with a bootstrap over scans.
     scan = np.repeat(np.arange(len(scans)), len(scans.angles_rad))
@@ -272,27 +271,32 @@ def score_prediction(
     nats = blocks.mean(prediction.log_density[valid])
     pit = randomised_pit(prediction.pit_low[valid], prediction.pit_high[valid], seed)
     distance, p_value = blocks.uniformity(pit)
-    coverage = []
-    for level in LEVELS:
-        low, high = (np.argmin(np.abs(ends - end)) for end in (0.5 - level / 2, 0.5 + level / 2))
-        width = quantiles[:, high] - quantiles[:, low]
-        share = blocks.mean(inside(pit, level).astype(np.float64))
-        coverage.append(Coverage(level, share, float(width.mean()), float(np.median(width))))
     event = stopped >= 0
-    happened, p = stopped[event] == 1, chance[event].astype(np.float64)
+    happened, p = stopped[event] == 1, p_first_hit[event].astype(np.float64)
     brier, loss = binary_scores(p, happened)
     event_blocks = ScanBlocks.make(np.repeat(scan, rays.lengths)[event], seed)
     no_events = MeanAndError(float("nan"), float("nan"))
     return Score(
         scans=len(np.unique(scan[valid])), beams=int(valid.sum()), nats_per_beam=nats.value,
-        nats_per_beam_error=nats.error, coverage=tuple(coverage), pit=pit, by_beam=prediction.log_density[valid],
-        scan_of_beam=scan[valid], reading_m=range_m[valid], pit_histogram=tuple(pit_histogram(pit, BINS).tolist()),
-        pit_distance=distance, pit_p_value=p_value, events=len(p),
-        brier=event_blocks.mean(brier) if len(p) else no_events,
+        nats_per_beam_error=nats.error, coverage=_coverage(pit, ends, quantiles_m, blocks), pit=pit,
+        by_beam=prediction.log_density[valid], scan_of_beam=scan[valid], reading_m=range_m[valid],
+        pit_histogram=tuple(pit_histogram(pit, BINS).tolist()), pit_distance=distance, pit_p_value=p_value,
+        events=len(p), brier=event_blocks.mean(brier) if len(p) else no_events,
         log_loss=event_blocks.mean(loss) if len(p) else no_events, reliability=tuple(reliability(p, happened)),
         p_no_return=(float(prediction.p_no_return[valid].mean()), float(np.isposinf(range_m[valid]).mean())),
         sensor=describe(sensor), hit_depth=predictor.hit_depth,
     )  # fmt: skip
+
+
+def _coverage(pit: Floats, ends: Floats, quantiles_m: Floats, blocks: ScanBlocks) -> tuple[Coverage, ...]:
+    """Return the coverage of the central intervals, given the quantiles at their ends, (B, number of ends)."""
+    coverage = []
+    for level in LEVELS:
+        low_index, high_index = (np.argmin(np.abs(ends - end)) for end in (0.5 - level / 2, 0.5 + level / 2))
+        width_m = quantiles_m[:, high_index] - quantiles_m[:, low_index]
+        share = blocks.mean(inside(pit, level).astype(np.float64))
+        coverage.append(Coverage(level, share, float(width_m.mean()), float(np.median(width_m))))
+    return tuple(coverage)
 
 
 @dataclass(frozen=True)

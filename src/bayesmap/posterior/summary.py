@@ -7,8 +7,6 @@ A binary quantity needs no ranks: its rank-normalised values are an affine image
 these diagnostics. `summarise` and `summarise_poses` compute the summaries, by the functions before them.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict, dataclass
 from typing import Any

@@ -6,13 +6,11 @@ relation with true relative pose d* has the error e = (d*)^-1 * (x_i^-1 * x_j). 
 is chi-squared with three degrees of freedom (Bar-Shalom, Li and Kirubarajan 2001, section 5.4).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import scipy
+from scipy import stats
 
 from bayesmap.errors import BadInput
 from bayesmap.space import arrays, planar
@@ -24,6 +22,7 @@ from bayesmap.space.trajectory import MAX_INTERPOLATED_S, RelativeLaw, Trajector
 STAMP_TOLERANCE_S = 0.001  # a stamp this far outside the trajectory, or off a pose, still counts
 LEVELS = (0.5, 0.8, 0.95)  # probabilities of regions
 DIMENSIONS = 3  # dimensions of a pose
+RIDGE = 1e-15 * np.eye(DIMENSIONS)  # added to covariances, m^2 and rad^2, so that they have inverses
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +36,7 @@ class Relations:
     def __len__(self) -> int:
         return len(self.first_s)
 
-    def select(self, mask: Mask | Indices) -> Relations:
+    def select(self, mask: Mask | Indices) -> "Relations":
         """Return the relations of a mask, (N,), or of some indices."""
         return Relations(self.first_s[mask], self.second_s[mask], self.relative[mask])
 
@@ -46,24 +45,24 @@ class Relations:
 class RelationErrors:
     """The errors of a trajectory in the M of N relations that it covers."""
 
-    errors: Floats  # (x, y, yaw) of each relation that the trajectory covers, metres and radians, (M, 3)
+    values: Floats  # (x, y, yaw) of each relation that the trajectory covers, metres and radians, (M, 3)
     covered: Mask  # mask of the relations that the trajectory covers, (N,)
     in_gap: Mask  # relations within the trajectory's time that lack poses near them, (N,)
 
     @property
     def translation_m(self) -> Floats:
         """The length of each error's translation, (M,)."""
-        return np.asarray(np.hypot(self.errors[:, 0], self.errors[:, 1]))
+        return np.asarray(np.hypot(self.values[:, 0], self.values[:, 1]))
 
     @property
     def rotation_rad(self) -> Floats:
         """The size of each error's rotation, (M,)."""
-        return np.asarray(np.abs(self.errors[:, 2]))
+        return np.asarray(np.abs(self.values[:, 2]))
 
     def summary(self) -> dict[str, float]:
         """Return mean, std, median of the errors' sizes, and counts: ``not_covered``, and ``in_gaps`` among these."""
         figures: dict[str, float] = {
-            "relations": len(self.errors), "not_covered": int((~self.covered).sum()), "in_gaps": int(self.in_gap.sum()),
+            "relations": len(self.values), "not_covered": int((~self.covered).sum()), "in_gaps": int(self.in_gap.sum()),
         }  # fmt: skip
         for name, values in (("translation_m", self.translation_m), ("rotation_deg", np.degrees(self.rotation_rad))):
             for statistic in (np.mean, np.std, np.median):
@@ -111,13 +110,13 @@ class TrajectoryScore:
 
     errors: RelationErrors  # errors of each relation, in the true frame of its second pose
     nees: Floats | None = None  # squared Mahalanobis lengths of the errors, (M,); None without covariances
-    region: Floats | None = None  # least probability of a region that holds the truth, (M,): uniform if it is right
+    region_probability: Floats | None = None  # least, of a region that holds the truth, (M,): uniform if it is right
     assumed_independent: bool = False  # whether the trajectory has covariances of single poses alone
     known_by: str = ""  # source of the covariances, in words
 
     def coverage(self, level: float) -> float:
         """Return the share of relations whose truth lies in the region of a probability, or NaN without regions."""
-        return float("nan") if self.region is None else float((self.region <= level).mean())
+        return float("nan") if self.region_probability is None else float((self.region_probability <= level).mean())
 
     def as_json(self) -> dict[str, Any]:
         """Return the figures as JSON values."""
@@ -146,15 +145,15 @@ def score_trajectory(
     errors = relation_errors(stamps_s, path.poses, relations, exact=exact)
     covered = relations.select(errors.covered)
     if path.relative is not None and len(path) > 1:
-        nees, region = _score_by_law(path.relative, stamps_s, covered, errors.errors)
-        return TrajectoryScore(errors, nees, region, known_by=path.known_by)
+        nees, p_region = _score_by_law(path.relative, stamps_s, covered, errors.values)
+        return TrajectoryScore(errors, nees, p_region, known_by=path.known_by)
     if path.draws is not None and len(path.draws) > 2 * DIMENSIONS:
-        nees, region = _score_by_draws(path.draws, stamps_s, covered)
-        return TrajectoryScore(errors, nees, region, known_by=path.known_by)
+        nees, p_region = _score_by_draws(path.draws, stamps_s, covered)
+        return TrajectoryScore(errors, nees, p_region, known_by=path.known_by)
     if path.covariances is not None:
         covariance = _independent_covariances(path.poses, path.covariances, stamps_s, covered)
-        nees = np.einsum("ni,nij,nj->n", errors.errors, np.linalg.inv(covariance), errors.errors)
-        return TrajectoryScore(errors, nees, scipy.stats.chi2.cdf(nees, DIMENSIONS), assumed_independent=True)
+        nees = np.einsum("ni,nij,nj->n", errors.values, np.linalg.inv(covariance), errors.values)
+        return TrajectoryScore(errors, nees, stats.chi2.cdf(nees, DIMENSIONS), assumed_independent=True)
     return TrajectoryScore(errors)
 
 
@@ -163,9 +162,9 @@ def _score_by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, erro
     first, second = (arrays.nearest_index(stamps_s, end_s) for end_s in (relations.first_s, relations.second_s))
     # If both times are nearest to one scan, use the step to a neighbouring scan: its distribution is at least as wide.
     second = np.where(first == second, np.where(second > 0, second - 1, second + 1), second)
-    scale = _in_end_frame(law.scales(first, second), relations) + 1e-15 * np.eye(DIMENSIONS)  # invertible
+    scale = _in_end_frame(law.scales(first, second), relations) + RIDGE
     square = np.einsum("ni,nij,nj->n", errors, np.linalg.inv(scale), errors)
-    return square * (law.dof - 2.0) / law.dof, np.asarray(scipy.stats.f.cdf(square / DIMENSIONS, DIMENSIONS, law.dof))
+    return square * (law.dof - 2.0) / law.dof, np.asarray(stats.f.cdf(square / DIMENSIONS, DIMENSIONS, law.dof))
 
 
 def _in_end_frame(covariance: Floats, relations: Relations) -> Floats:
@@ -187,10 +186,10 @@ def _score_by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tu
     mean = errors.mean(axis=0)
     from_mean = errors - mean
     error = np.column_stack([mean[:, :2], wrap_angle(mean[:, 2])])
-    covariance = np.einsum("dni,dnj->nij", from_mean, from_mean) / (n_draws - 1) + 1e-15 * np.eye(DIMENSIONS)
+    covariance = np.einsum("dni,dnj->nij", from_mean, from_mean) / (n_draws - 1) + RIDGE
     nees = np.einsum("ni,nij,nj->n", error, np.linalg.inv(covariance), error)
     scaled = nees * n_draws * (n_draws - DIMENSIONS) / (DIMENSIONS * (n_draws + 1) * (n_draws - 1))
-    return nees, np.asarray(scipy.stats.f.cdf(scaled, DIMENSIONS, n_draws - DIMENSIONS))
+    return nees, np.asarray(stats.f.cdf(scaled, DIMENSIONS, n_draws - DIMENSIONS))
 
 
 def _independent_covariances(poses: Floats, covariances: Floats, stamps_s: Floats, relations: Relations) -> Floats:

@@ -85,7 +85,7 @@ def mapping_model(
         sensor: the law of the readings: Gaussian, StudentT or BeamMixture.
         max_range_m: the sensor's largest range.
         min_range_m: the sensor's smallest range.
-        hit_depth: where in a cell a beam stops, as a fraction of its chord: 0 at the near edge, as in the tutorial.
+        hit_depth: where in a cell a beam stops, as a fraction of its chord: 0 at the near edge, 1 at the far edge.
 
     Raises `BadInput` for shapes that do not fit, numbers not finite, a sensor not known on JAX, or a coupled prior.
     """
@@ -164,7 +164,7 @@ class _WallPrior(Pytree):
         """Return the prior of an array of probabilities, (nx, ny)."""
         return _WallPrior(p_wall.shape, np.asarray(p_wall, np.float64).tobytes())
 
-    def draw(self) -> Any:
+    def generator(self) -> Any:
         """Return the call that draws the walls. Equal probabilities become one number, so that edits read no array."""
         p = np.frombuffer(self.p_wall).reshape(self.shape)
         if (p == p[0, 0]).all():
@@ -175,7 +175,7 @@ class _WallPrior(Pytree):
 @gen
 def _map_and_readings(prior: _WallPrior, sensor: BeamSensor) -> Any:
     """Draw a map and its readings at known poses."""
-    walls = prior.draw() @ "walls"
+    walls = prior.generator() @ "walls"
     readings = sensor(walls) @ "readings"
     return walls, readings
 
@@ -184,6 +184,6 @@ def _map_and_readings(prior: _WallPrior, sensor: BeamSensor) -> Any:
 def _poses_map_and_readings(pose_prior: GenerativeFunction, prior: _WallPrior, sensor: PoseSensor) -> Any:
     """Draw poses, a map and its readings."""
     poses = (pose_prior if isinstance(pose_prior, GenerativeFunctionClosure) else pose_prior()) @ "poses"
-    walls = prior.draw() @ "walls"
+    walls = prior.generator() @ "walls"
     readings = sensor(walls, poses) @ "readings"
     return poses, walls, readings

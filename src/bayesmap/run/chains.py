@@ -5,8 +5,6 @@ early at fixed numbers of sweeps, the *marks*, once the mean map is precise enou
 results (`Chains`) can be joined and resumed; `DrawRecord` stores the draws while the chains run.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -60,7 +58,7 @@ class SweepPlan:
             draws += max(5, draws // 4)  # an estimate reads all draws: growing gaps keep its share of the time small
         return tuple(marks)
 
-    def shortened(self, sweep_s: float, remaining_s: float) -> SweepPlan:
+    def shortened(self, sweep_s: float, remaining_s: float) -> "SweepPlan":
         """Return this plan with a warm-up of at most `MAX_WARMUP_SHARE` of the time left, at ``sweep_s`` a sweep."""
         return replace(self, warmup=min(self.warmup, max(1, int(MAX_WARMUP_SHARE * remaining_s / sweep_s))))
 
@@ -131,7 +129,7 @@ class Chains:
         """Return a mask of the cells that at least one beam observes in at least half of the draws, (nx, ny)."""
         return observed_cells(self.observed_counts)
 
-    def select(self, selection: slice) -> Chains:
+    def select(self, selection: slice) -> "Chains":
         """Return the results of some of the chains. The observed counts remain those of all chains."""
         draws = replace(self.draws, arrays={name: array[selection] for name, array in self.draws.arrays.items()})
         snapshot = Snapshot(self.sweep, {name: array[selection] for name, array in self.snapshot.arrays.items()})
@@ -233,7 +231,7 @@ class DrawRecord:
             self._arrays[name][:, columns] = values if values.shape[1] == len(kept_sweeps) else values[:, indices]
         self.kept = columns.stop
 
-    def grown(self, plan: SweepPlan) -> DrawRecord:
+    def grown(self, plan: SweepPlan) -> "DrawRecord":
         """Return this record with room for the draws of a longer plan. Its ``thin`` is a multiple of this plan's."""
         record = DrawRecord(self.draws, plan)
         stride = plan.thin // max(1, self._keep.every)

@@ -7,8 +7,6 @@ Read `estimate` and `Estimate` (the answer), `size_of` (measures scans on a grid
 docs/scale.md compares estimates with whole runs.
 """
 
-from __future__ import annotations
-
 import contextlib
 import math
 import os
@@ -34,7 +32,7 @@ MIN_TOUCHED_SHARE = 0.5  # share of the grid's cells that beams touch in a build
 PROPOSED_SPACINGS_M = (0.1, 0.2, 0.5, 1.0)  # distances between scans that are proposed
 
 
-def estimate(scans: Scans, grid: Grid, size: ProblemSize, sampling: Sampling) -> Estimate | None:
+def estimate(scans: Scans, grid: Grid, size: "ProblemSize", sampling: "Sampling") -> "Estimate | None":
     """Estimate the cost of a run here, with a remedy if it is long or large, or None for an unknown sampler."""
     if sampling.constants is None:
         return None
@@ -44,7 +42,7 @@ def estimate(scans: Scans, grid: Grid, size: ProblemSize, sampling: Sampling) ->
     return replace(cost, remedy=_option_for_time(scans, size, sampling)) if cost.is_long else cost
 
 
-def _estimate_without_remedy(size: ProblemSize, sampling: Sampling) -> Estimate:
+def _estimate_without_remedy(size: "ProblemSize", sampling: "Sampling") -> "Estimate":
     plan = sampling.plan
     fewest = plan.draws if plan.precision is None else min(FIRST_MARK_DRAWS, plan.draws)
     fewest, most = min(fewest, 2) if plan.seconds else fewest, plan.draws
@@ -148,12 +146,12 @@ class ProblemSize:
     readings: float  # readings of the log, which is in memory
     matched: int = 0  # scans whose poses `slam` infers first
 
-    def thinned(self, share: float) -> ProblemSize:
+    def thinned(self, share: float) -> "ProblemSize":
         """Return the size with a share of the scans. The map of `slam` is made from few scans in any case."""
         thin = replace(self, matched=round(self.matched * share), readings=self.readings * share)
         return thin if self.matched else replace(thin, beams=self.beams * share, incidences=self.incidences * share)
 
-    def coarser(self, factor: float) -> ProblemSize:
+    def coarser(self, factor: float) -> "ProblemSize":
         """Return the size with cells whose edges are longer by a factor."""
         return replace(
             self, incidences=self.incidences / factor, cells=self.cells / factor**2,

@@ -9,8 +9,6 @@ Read `RayExecutor` (the public options) and `_RayRun.run` (the loop in this proc
 (the tasks of the workers). Model and traced beams go into the cluster's object store once; workers cache them.
 """
 
-from __future__ import annotations
-
 import logging
 import math
 import time

@@ -7,8 +7,6 @@ Read `Job` (what to run), `run_chains` (the loop), and `advance_chains` (the ste
 `Executor` decides where the chains of a job run.
 """
 
-from __future__ import annotations
-
 import contextlib
 import signal
 import threading

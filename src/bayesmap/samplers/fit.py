@@ -10,8 +10,6 @@ Ising prior of binary walls by the pseudo-likelihood of the drawn maps. The pilo
 before other chains begin, so the parameters do not depend on the number of chains. Poses stay at the log's.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -63,7 +61,7 @@ class Parameters:
         return {"sensor": describe(self.sensor), "prior": self.prior.describe()}
 
     @classmethod
-    def from_description(cls, values: dict[str, Any]) -> Parameters:
+    def from_description(cls, values: dict[str, Any]) -> "Parameters":
         """Return the parameters of a description."""
         sensor = from_description(values["sensor"])
         assert isinstance(sensor, BeamMixture)  # only mixtures are fitted

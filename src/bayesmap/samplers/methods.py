@@ -4,8 +4,6 @@
 `INDEPENDENT_SAMPLERS`. `resolve_method` finds this name, and `make_sampler` builds a Markov chain sampler by it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, get_args

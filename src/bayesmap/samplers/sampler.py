@@ -6,8 +6,6 @@ draws that `Keep` selects. A `Snapshot` continues chains elsewhere. A `Watch` re
 Every draw depends on (seed, number of the chain, sweep, site) alone (docs/inference.md).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -106,7 +104,7 @@ class Info:
     draws: Mapping[str, NDArray[Any]]  # kept draws by array name, in stored form, (chains, kept, ...)
 
     @classmethod
-    def joined(cls, infos: Sequence[Info], axis: int) -> Info:
+    def joined(cls, infos: "Sequence[Info]", axis: int) -> "Info":
         """Join reports of other chains (axis 0) or of consecutive sweeps (axis 1)."""
         return cls(
             np.concatenate([info.log_likelihood for info in infos], axis),
@@ -162,7 +160,7 @@ class RaysProblem(Problem):
         return self.rays
 
 
-def keep_cached(changed: T, original: T, *names: str) -> T:
+def keep_cached(changed: "T", original: "T", *names: str) -> "T":
     """Copy the named cached properties of a problem to its changed copy, for which they are valid. Returns the copy."""
     vars(changed).update({name: value for name, value in vars(original).items() if name in names})
     return changed

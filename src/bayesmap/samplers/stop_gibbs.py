@@ -6,8 +6,6 @@ to "counting" maps (Haehnel, 2004), which keep the counts of one assignment; her
 `StopGibbs` is the sampler. `bayesmap.kernels.surfaces.stop_chains` runs its sweeps, `StopDraws` records their draws.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -38,7 +36,7 @@ EARLY_SURFACE_STEPS = 12  # Metropolis steps of a surface in each early sweep, i
 class StopDraws:
     """The draws of the ``kept`` sweeps: cells before the sweep (`begin`), and means given its stops (`end`)."""
 
-    def __init__(self, problem: StopProblem, chains: StopChains, kept: range) -> None:
+    def __init__(self, problem: StopProblem, chains: "StopChains", kept: range) -> None:
         self._problem, self._chains = problem, chains
         self._draw_of_sweep = {sweep - 1: draw for draw, sweep in enumerate(kept)}
         grid_sizes = dict(zip(("x", "y"), problem.grid.shape, strict=True))
@@ -88,7 +86,7 @@ class StopDraws:
         drawn = self.arrays["reflectivity"][chain, draw]
         self._store("expected", chain, draw, expected_reflectivity(hits, passes, prior, drawn, solid))
 
-    def _store_chances(self, chain: int, draw: int, squares: SquareCounts) -> None:
+    def _store_chances(self, chain: int, draw: int, squares: "SquareCounts") -> None:
         """Store the chances that squares stop beams; a square that no beam can reach takes the prior mean."""
         prior, cells = self._problem.prior, self._cells["cell"]
         positions, touched = self._among_touched
@@ -126,7 +124,7 @@ class StopState(ChainState):
     """Chains between two sweeps."""
 
     problem: StopProblem
-    chains: StopChains
+    chains: "StopChains"
     keys: Sequence[int]  # keys of the chains' random numbers
 
 
@@ -292,7 +290,7 @@ class StopGibbs:
         return masks
 
 
-def _stack_chains(values: Callable[[int], Any], chains: StopChains) -> NDArray[Any]:
+def _stack_chains(values: Callable[[int], Any], chains: "StopChains") -> NDArray[Any]:
     """Stack the values of every chain, (C, ...)."""
     return np.stack([values(chain) for chain in range(chains.n_chains)])
 
@@ -306,7 +304,7 @@ def _spread(counts: Ints | None, cells: Ints, grid: Grid) -> Ints | None:
     return spread
 
 
-def _plan(problem: StopProblem) -> Plan:
+def _plan(problem: StopProblem) -> "Plan":
     """Return the data that the sweeps of all chains share."""
     from bayesmap.kernels.surfaces.stop_chains import Plan
 

@@ -6,8 +6,6 @@ Saarinen et al., 2013). From this estimate follow the first states of chains (`d
 sizes of their Metropolis steps (`steps_and_frames`), and how often a sweep updates each cell (`update_periods`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -244,7 +242,7 @@ class StopProblem(RaysProblem):
         surfaces = {"surface_cell": self.estimate.endpoint_cells} if self.prior.has_surfaces else {}
         return {"cell": self.estimate.touched} | surfaces
 
-    def for_any_poses(self) -> StopProblem:
+    def for_any_poses(self) -> "StopProblem":
         """Return this problem for poses that may move: draws keep all cells, and surfaces around present end points."""
         is_endpoint = np.bincount(self.estimate.endpoint_cells, minlength=self.grid.n_cells) > 0
         reachable = ndimage.binary_dilation(
@@ -260,7 +258,7 @@ class StopProblem(RaysProblem):
 
         return stop_distances(self.rays, self.hit_depth, self.device)
 
-    def under(self, sensor: SensorModel, prior: Beta) -> StopProblem:
+    def under(self, sensor: SensorModel, prior: Beta) -> "StopProblem":
         """Return the rays under another sensor and another prior."""
         return keep_cached(replace(self, sensor=sensor, prior=prior), self, "estimate", "distance_m")
 

@@ -4,8 +4,6 @@
 device, which are made on first use.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -36,11 +34,11 @@ class WallProblem(Problem):
         """The beam table, under the name that all problems share."""
         return self.table
 
-    def for_any_poses(self) -> WallProblem:
+    def for_any_poses(self) -> "WallProblem":
         """Return this problem: draws of walls keep all cells, wherever the poses are."""
         return self
 
-    def under(self, prior: BinaryWalls) -> WallProblem:
+    def under(self, prior: BinaryWalls) -> "WallProblem":
         """Return this problem under another prior."""
         return keep_cached(replace(self, prior=prior), self, "index", "device_table")  # names of cached properties
 

@@ -4,8 +4,6 @@
 conditional. Chains start at `start_maps`. docs/inference.md explains the conditionals, the orders and the starts.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -77,7 +75,7 @@ class WallState(ChainState):
     """Chains between two sweeps."""
 
     problem: WallProblem
-    chains: WallChains
+    chains: "WallChains"
     kernel: SweepKernel
     sites: Ints  # sites of a sweep in their order, by `WallSampler.sites`
     keys: Sequence[int]  # keys of the chains' random numbers
@@ -110,7 +108,7 @@ class WallSampler(ABC):
         """Load the sweep kernel. Returns it with its first arguments, the tables."""
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> WallProblem:
-        """Trace the beam table; ``watch`` is not used."""
+        """Trace the beam table, without reports to ``watch``."""
         return trace_walls(model, device, threads)
 
     def init(
@@ -151,7 +149,7 @@ class WallSampler(ABC):
 
     def retrace(self, problem: WallProblem, model: Model) -> WallProblem:
         """Return this problem with the scans moved to other poses."""
-        return trace_walls(model, problem.device, 1)
+        return trace_walls(model, problem.device, threads=1)  # `WithPoses` traces for all chains at once
 
     def moved(self, state: WallState, problem: WallProblem) -> WallState:
         """Return the chains with their present maps, under another problem."""
@@ -182,7 +180,7 @@ class WallSampler(ABC):
 
 
 def radial_distance(problem: WallProblem) -> NDArray[np.int64]:
-    """Compute the L1 distance of every cell from the nearest sensor, in cells, (nx, ny): the tutorial's diamonds."""
+    """Compute the L1 distance of every cell from the nearest sensor, in cells, (nx, ny)."""
     from scipy import ndimage
 
     nx, ny = problem.grid.shape
@@ -212,9 +210,10 @@ class WallGibbs(WallSampler):
 
 @dataclass(frozen=True, eq=False)
 class WallBlocks(WallSampler):
-    """A sampler whose sweeps draw each of the overlapping 2 x 2 blocks once, its four cells together."""
+    """A sampler whose sweeps draw each of the overlapping 2 x 2 blocks once, its four cells together.
+    A wall too near the sensor moves in one step; single cells would have to remove it before they set another.
+    """
 
-    # A wall too near the sensor moves in one step; single cells would have to remove it before they set another.
     site_edge = 2
 
     def kernel(self, problem: WallProblem) -> SweepKernel:

@@ -9,8 +9,6 @@ the cells in which a beam may stop, and the next sweep draws these stops again (
 `WithPoses`, at the end, is the sampler of both; `PoseMetropolis` makes the steps of the poses.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
@@ -56,7 +54,7 @@ class PoseState:
 class PoseMetropolis:
     """Metropolis steps of all poses of some chains."""
 
-    likelihood: ScanLikelihood
+    likelihood: "ScanLikelihood"
     prior: PoseLaw
     factor: Floats  # Cholesky factor of each scan's proposal covariance in world axes, (S, 3, 3) or (C, S, 3, 3)
 
@@ -106,7 +104,7 @@ class PoseMetropolis:
 
 
 def proposal_factors(
-    likelihood: ScanLikelihood, cells: Singles, poses: Floats, prior: PoseLaw, step_m: float
+    likelihood: "ScanLikelihood", cells: Singles, poses: Floats, prior: PoseLaw, step_m: float
 ) -> Floats:
     """Return Cholesky factors of proposals that fit the posterior of each scan's pose given one map, (S, 3, 3).
     The map is (1, N) or (1, N, 6). The information sums the outer products of the gradients of beams' log densities, by
@@ -164,7 +162,7 @@ class PoseProblem(Problem):
         return {**self.cells.coordinates, "scan": scans, "pose": np.arange(3, dtype=np.int32)}
 
     @cached_property
-    def likelihood(self) -> ScanLikelihood:
+    def likelihood(self) -> "ScanLikelihood":
         """The likelihood of scans at poses."""
         from bayesmap.kernels.predict.density import ScanLikelihood
 
@@ -180,7 +178,7 @@ class PoseProblem(Problem):
         """Return the model with its scans moved to these poses, (S, 3)."""
         return replace(self.model, scans=self.model.scans.at(poses))
 
-    def under(self, sensor: SensorModel, prior: CellPrior) -> PoseProblem:
+    def under(self, sensor: SensorModel, prior: CellPrior) -> "PoseProblem":
         """Return this problem under another sensor and another prior of the cells."""
         model = replace(self.model, sensor=sensor, cells=prior)
         return replace(self, model=model, cells=self.cells.under(sensor, prior))

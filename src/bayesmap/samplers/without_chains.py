@@ -6,8 +6,6 @@ Belief propagation with ray potentials (`propagate`) gives approximate marginals
 the reference against which every sampler is tested. The functions at the end turn the results into draws.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace

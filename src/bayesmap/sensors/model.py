@@ -25,8 +25,6 @@ and the three add up to one. For min <= z <= max, with wall = min(d, max) and th
                           + q(d) (1 - p_no_return) 1(d <= max) N(z - d)]
 """
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, fields, replace
@@ -87,7 +85,7 @@ class SensorModel(ABC):
         """
         raise BadInput(f"{type(self).__name__}: no cumulative distribution; add a method cumulative() to the model")
 
-    def kernel_parameters(self) -> KernelParameters | None:
+    def kernel_parameters(self) -> "KernelParameters | None":
         """Return the numbers with which the compiled likelihood computes this model, or None if it cannot."""
         return None
 

@@ -10,8 +10,6 @@ let w = sqrt(scale(d)^2 + s^2). The density is stored as
 where it is smooth. Typed readings have nodes of distance and spread, beams that stop nowhere nodes of the reading.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 

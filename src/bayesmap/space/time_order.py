@@ -1,4 +1,4 @@
-"""The time order of a log's scans, and the distances that the robot travels between them.
+"""The time order of a log's scans, and the robot's travel between them.
 
 `time_order` sorts scans by stamps. Stamps may be coarse, come in bursts, or from a clock that was reset, that is, set
 back. `thin_scans` and `find_jumps` then read the poses in this order. A step leads from one pose to the next.
@@ -95,7 +95,7 @@ def repeated_stamps(stamps_s: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def elapsed_bounds_s(stamps_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Bound the time from each scan to the next: the shortest and the longest, (S - 1,) each.
+    """Return bounds on the time from each scan to the next: the shortest and the longest, (S - 1,) each.
     Stamps, (S,), may be rounded. Scans that share a stamp lie anywhere between the stamps before and after it.
     """
     gaps_s = np.abs(np.diff(stamps_s))

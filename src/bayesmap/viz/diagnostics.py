@@ -15,7 +15,7 @@ MAX_POINTS = 4000  # points of a trace; a longer trace shows minimum and maximum
 MAX_CHAINS_IN_LEGEND = 8
 TRACE_BINS = 40  # bins of the histogram of the log joint
 WEIGHT_BINS = 100  # bins of the histogram of weights
-TUTORIAL_RANGE_NATS = (-10_000.0, 0.0)  # range of the tutorial's histogram of weights
+DEFAULT_RANGE_NATS = (-10_000.0, 0.0)  # default range of the histogram of weights
 WHOLE_SHARE = 0.9995  # a larger share of the sum of weights rounds to 100 %, in tenths of a per cent
 
 
@@ -95,15 +95,15 @@ def _plot_lines(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: 
 
 
 def plot_weights(
-    ax: Axes, log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE_NATS
+    ax: Axes, log_weights: ArrayLike, *, range_nats: tuple[float, float] = DEFAULT_RANGE_NATS
 ) -> NDArray[np.intp]:
     """Plot a histogram of the normalised log weights, mark the largest, and write the effective sample size above.
-    If one sample has nearly all the weight, the effective sample size is 1: importance sampling has collapsed, as in
-    the tutorial. Counts are on a logarithmic scale. Weights need not be normalised; -inf is a weight of zero. Weights
-    below ``range_nats`` are counted in the panel. Returns the counts, (100,). Raises `BadInput` if there is no weight,
-    if all are zero, if one is NaN or +inf, or if the range is empty.
+    If one sample has nearly all the weight, the effective sample size is 1: importance sampling has collapsed. Counts
+    are on a logarithmic scale. Weights need not be normalised; -inf is a weight of zero. The number of weights below
+    ``range_nats`` is written in the panel; weights above it are neither shown nor counted. Returns the counts, (100,).
+    Raises `BadInput` if there is no weight, if all are zero, if one is NaN or +inf, or if the range is empty.
     """
-    logs = normalize_log_weights(log_weights)
+    logs = normalise_log_weights(log_weights)
     low, high = range_nats
     if not (np.isfinite(low) and np.isfinite(high) and low < high):
         raise BadInput(f"weights: range_nats must rise from a finite number to another, got ({low}, {high})")
@@ -136,14 +136,14 @@ def plot_weights(
     return np.asarray(counts)
 
 
-def weights_figure(log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE_NATS) -> Figure:
+def weights_figure(log_weights: ArrayLike, *, range_nats: tuple[float, float] = DEFAULT_RANGE_NATS) -> Figure:
     """Return a figure of `plot_weights`, with its arguments and errors."""
     figure = palette.blank_figure(6.4, 3.2)
     plot_weights(figure.add_subplot(), log_weights, range_nats=range_nats)
     return figure
 
 
-def normalize_log_weights(log_weights: ArrayLike) -> NDArray[np.float64]:
+def normalise_log_weights(log_weights: ArrayLike) -> NDArray[np.float64]:
     """Return log weights whose weights add up to 1, (n,). Raises `BadInput` if there is none, or one is NaN or +inf."""
     logs = as_array(log_weights, "log_weights")
     if logs.ndim != 1 or len(logs) == 0:
@@ -157,6 +157,6 @@ def normalize_log_weights(log_weights: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(log_softmax(logs))
 
 
-def effective_sample_size(normalized_logs: NDArray[np.float64]) -> float:
+def effective_sample_size(normalised_log_weights: NDArray[np.float64]) -> float:
     """Return Kish's effective sample size: 1 over the sum of the squared weights."""
-    return float(1.0 / np.exp(2.0 * normalized_logs).sum())
+    return float(1.0 / np.exp(2.0 * normalised_log_weights).sum())

@@ -175,7 +175,7 @@ def posterior_figure(
         label_panel(panel, titles[name], layout.max_ticks, leftmost=position % layout.columns == 0)
     color_bar(figure, layout, layout.corners[0], mean, label)
     color_bar(figure, layout, layout.corners[1], uncertainty, unit)
-    place_legend(figure, [*_state_keys(draw), *([] if observed_mask.all() else [maps.hatch_patch()]), *keys])
+    place_legend(figure, [*_state_keys(draw), *([] if observed_mask.all() else [maps.hatch_key()]), *keys])
     layout.title(figure, title)
     return figure
 
@@ -320,6 +320,6 @@ def comparison_figure(
     last_row = layout.corners[-layout.columns :]
     color_bar(figure, layout, (sum(left for left, _ in last_row) // len(last_row), last_row[0][1]), image, label)
     if not np.all(masks):
-        place_legend(figure, [maps.hatch_patch()])
+        place_legend(figure, [maps.hatch_key()])
     layout.title(figure, title)
     return figure

@@ -23,6 +23,7 @@ from bayesmap.space.grid import ROUNDING, Grid, as_mask, as_numbers, as_observed
 from bayesmap.viz import palette
 
 Window = tuple[slice, slice]  # the slices that cut a part of a map from an array (nx, ny)
+Crop = tuple[Grid, Window]  # the grid of a part of a map, and its slices
 MIN_WALLS_NEARBY = 3  # a wall with fewer walls in the 5 x 5 cells around it, itself included, may be a stray reading
 HEIGHT_IN = 5.6  # height of a map's panel with the labels below it
 BAR_IN = 1.3  # room for the labels at the left of a map, and for the colour bar at its right
@@ -57,7 +58,7 @@ def _to_world(grid: Grid, cells: NDArray[np.intp]) -> NDArray[np.float64]:
     return np.asarray(np.asarray(grid.origin) + grid.resolution * np.moveaxis(cells, -1, 0))
 
 
-def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tuple[Grid, Window]:
+def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> Crop:
     """Return the grid of the cells that a rectangle of the world touches, and the slices that cut it from (nx, ny).
     ``x_m`` are the rectangle's left and right edge, ``y_m`` its lower and upper edge. Raises `BadInput` if edges are
     out of order or not finite, or if the rectangle lies outside the grid.
@@ -81,7 +82,7 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
     return Grid(shape, grid.resolution, (origin[0], origin[1])), (slices[0], slices[1])
 
 
-def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Window]:
+def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> Crop:
     """Return the `window` around the true cells of a mask, (nx, ny), with a margin; the whole grid if none is true."""
     cells = np.argwhere(as_mask(grid, mask, "mask"))
     first, end = (cells.min(axis=0), cells.max(axis=0) + 1) if len(cells) else (np.zeros(2), np.array(grid.shape))
@@ -90,7 +91,7 @@ def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[G
     return window(grid, (low[0], high[0]), (low[1], high[1]))
 
 
-def window_of_walls(grid: Grid, walls: ArrayLike, points_m: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Window]:
+def window_of_walls(grid: Grid, walls: ArrayLike, points_m: ArrayLike, margin_m: float = 1.0) -> Crop:
     """Return the `window` around points, (n, 2), and walls, a mask (nx, ny). Walls that stand alone do not count."""
     from scipy.ndimage import convolve
 
@@ -111,7 +112,7 @@ def plot_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: Array
 
 
 def plot_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Plot the entropy of each cell, 0 to 1 bit, given its probability of wall, as `plot_probability` does."""
+    """Plot the entropy of each cell, 0 to 1 bit. Arguments, result and errors are those of `plot_probability`."""
     from bayesmap.posterior.posterior import entropy_bits
 
     bits = entropy_bits(as_probabilities(grid, occupancy, "occupancy"))
@@ -119,13 +120,13 @@ def plot_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike
 
 
 def plot_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Plot each cell's posterior standard deviation, in [0, 0.5], as `plot_probability` plots probabilities."""
+    """Plot the posterior standard deviation of each cell, in [0, 0.5], (nx, ny). Otherwise as `plot_probability`."""
     reason = "the standard deviation of a number in [0, 1] lies in [0, 0.5]; take the square root if this is a variance"
     return _plot_uncertainty(ax, grid, deviation, observed, "deviation", 0.5, reason)
 
 
 def plot_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Plot the width of each cell's posterior interval, in [0, 1], as `plot_probability` plots probabilities."""
+    """Plot the width of each cell's posterior interval, in [0, 1], (nx, ny). Otherwise as `plot_probability`."""
     reason = "the bounds of a number in [0, 1] are 0 to 1 apart; give upper minus lower"
     return _plot_uncertainty(ax, grid, width, observed, "width", 1.0, reason)
 
@@ -141,7 +142,7 @@ def _plot_uncertainty(
 
 
 def plot_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Plot a draw of walls, true or 1, as `plot_probability` does. Unobserved cells are faded: the prior drew them."""
+    """Plot a draw of walls, true or 1. Unobserved cells are faded: the prior drew them. Returns the image."""
     observed_mask = as_observed(grid, observed)
     kind = np.where(observed_mask, 0.0, 2.0) + as_mask(grid, walls, "walls")  # free, wall; unobserved: free, wall
     return _plot_cells(ax, grid, kind, observed_mask, palette.draw_colormap(), 3.0, hide_unobserved=False)
@@ -187,14 +188,15 @@ def frame_axes(ax: Axes, grid: Grid) -> None:
     ax.spines[:].set(edgecolor=palette.FRAME, linewidth=0.6)
 
 
-def hatch_patch(path: Path | None = None) -> PathPatch:
-    """Return the hatch over unobserved cells; without a path, its legend key, filled with their colour."""
-    is_key = path is None
-    square = Path(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]), closed=True)
-    patch = PathPatch(
-        square if path is None else path, facecolor=palette.UNOBSERVED if is_key else "none", linewidth=0.0,
-        edgecolor=palette.UNOBSERVED_HATCH, hatch=palette.HATCH, label="unobserved" if is_key else None,
-    )  # fmt: skip
+def hatch_key() -> PathPatch:
+    """Return the legend key of unobserved cells: the hatch over their colour."""
+    return _hatch_patch(Path.unit_rectangle(), facecolor=palette.UNOBSERVED, label="unobserved")
+
+
+def _hatch_patch(path: Path, **style: str) -> PathPatch:
+    """Return the hatch over unobserved cells within a path."""
+    colors = {"edgecolor": palette.UNOBSERVED_HATCH, **style}
+    patch = PathPatch(path, linewidth=0.0, hatch=palette.HATCH, **colors)
     patch.set_hatch_linewidth(0.6)  # points
     return patch
 
@@ -214,5 +216,5 @@ def _plot_cells(
         outlines = strip_outlines(grid, ~observed)
         codes = np.tile([Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY], len(outlines))
         # Not add_patch: it is slow, since it computes limits in Python that the panel already has.
-        ax.add_artist(hatch_patch(Path(outlines.reshape(-1, 2), codes)))
+        ax.add_artist(_hatch_patch(Path(outlines.reshape(-1, 2), codes), facecolor="none"))
     return image

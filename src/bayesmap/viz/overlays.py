@@ -127,14 +127,15 @@ def surface_strokes(means_world: ArrayLike, covariances_m2: ArrayLike, longest_m
     means, covariances = as_array(means_world, "means_world"), as_array(covariances_m2, "covariances_m2")
     n = means.size // 2
     if means.shape != (n, 2) or covariances.shape != (n, 2, 2):
-        raise BadInput(f"picture: {n} surfaces need means (n, 2) and covariances (n, 2, 2), got {covariances.shape}")
+        shapes = f"{means.shape} and {covariances.shape}"
+        raise BadInput(f"picture: surfaces need means (n, 2) and covariances (n, 2, 2), got {shapes}")
     infinite = ~(np.isfinite(means).all(axis=1) & np.isfinite(covariances).all(axis=(1, 2)))
     if infinite.any():
         raise BadInput(f"picture: surface {int(np.argmax(infinite))} is not finite; leave out cells without a surface")
     variances, axes = np.linalg.eigh(covariances)  # ascending
     scale = np.abs(covariances).max(axis=(1, 2))
-    skew = np.abs(covariances[:, 0, 1] - covariances[:, 1, 0]) > 1e-6 * scale
-    is_invalid = skew | (variances[:, 0] < -1e-6 * scale)
+    is_asymmetric = np.abs(covariances[:, 0, 1] - covariances[:, 1, 0]) > 1e-6 * scale
+    is_invalid = is_asymmetric | (variances[:, 0] < -1e-6 * scale)
     if is_invalid.any():
         raise BadInput(f"picture: matrix {int(np.argmax(is_invalid))} is no covariance: it must be symmetric, and >= 0")
     half_m = np.minimum(STROKE_SIGMAS * np.sqrt(np.maximum(variances[:, 1], 0.0)), longest_m / 2.0)
@@ -155,9 +156,9 @@ def plot_surfaces(
     if alpha.shape != (len(strokes),) or not ((alpha >= 0.0) & (alpha <= 1.0)).all():
         raise BadInput(f"picture: weights must be {len(strokes)} numbers in [0, 1], one a surface")
     visible = alpha >= MIN_WEIGHT
-    ink = to_rgba(tuple(palette.probability_colors(2)[1]) if color is None else color)
+    stroke_color = to_rgba(tuple(palette.probability_colors(2)[1]) if color is None else color)
     # An empty collection needs one colour too, for its legend key.
-    colors = np.tile(ink, (max(int(visible.sum()), 1), 1))
+    colors = np.tile(stroke_color, (max(int(visible.sum()), 1), 1))
     if visible.any():
         colors[:, 3] = alpha[visible]
     lines = LineCollection(list(strokes[visible]), colors=colors, linewidths=width_pt, capstyle="round", zorder=2.5)
@@ -178,10 +179,10 @@ def surfaces_figure(
     # Hits of a cell lie in the cell: a longer stroke only shows that the surface is uncertain.
     longest_m = 1.5 * grid.resolution
     plot_surfaces(axes, means_world, covariances_m2, weights, width_pt=width_pt, longest_m=longest_m)
-    ink = tuple(palette.probability_colors(2)[1])
-    keys = [Line2D([], [], color=ink, alpha=a, linewidth=2.0, label=f"stops {100 * a:.0f} %") for a in (1.0, 0.5, 0.2)]
+    wall_color = tuple(palette.probability_colors(2)[1])
+    keys = [Line2D([], [], color=wall_color, alpha=p, linewidth=2.0, label=f"stops {p:.0%}") for p in (1.0, 0.5, 0.2)]
     figure.legend(
-        handles=[*keys, maps.hatch_patch()], loc="outside lower center", ncols=4, frameon=False, fontsize=9,
+        handles=[*keys, maps.hatch_key()], loc="outside lower center", ncols=4, frameon=False, fontsize=9,
         labelcolor=palette.TEXT,
     )  # fmt: skip
     return figure
@@ -214,18 +215,18 @@ def plot_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
 
 
 def views_figure(
-    grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, *, candidates: ArrayLike, nats: ArrayLike,
-    best: ArrayLike, best_nats: ArrayLike,
+    grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, *, candidates: ArrayLike, information_nats: ArrayLike,
+    best: ArrayLike, bounds_nats: ArrayLike,
 ) -> Figure:  # fmt: skip
     """Return a figure of candidate views, (P, 3), over the mean map, coloured by a fast formula for their information.
-    ``nats`` holds this information, (P,). ``best`` holds indices of candidates, the best first, (V,). They become
-    numbered arrows; the legend has the upper bounds of their information, ``best_nats``, (V,). The colours have no
-    numbers, since another formula gives them. Raises `BadInput` if shapes do not fit.
+    ``information_nats`` is (P,). ``best`` holds indices of candidates, the best first, (V,). They become numbered
+    arrows; the legend has the upper bounds of their information, ``bounds_nats``, (V,). The colours have no numbers,
+    since another formula gives them. Raises `BadInput` if shapes do not fit.
     """
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_height_in=FOOT_HEIGHT_IN + VIEW_IN * np.size(best))
     maps.plot_probability(ax, grid, occupancy, observed)
     # A dot at each candidate, the most informative on top.
-    views, values = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
+    views, values = np.asarray(candidates, dtype=np.float64), np.asarray(information_nats, dtype=np.float64)
     if views.ndim != 2 or views.shape[1] != 3 or values.shape != views.shape[:1]:
         raise BadInput(f"picture: candidates have shape {views.shape} and nats {values.shape}; give (P, 3) and (P,)")
     order = np.argsort(values)
@@ -237,7 +238,7 @@ def views_figure(
     low, high = dots.get_clim()
     bar.set_ticks([low, high], labels=["least", "most"])
     poses = views[np.asarray(best, dtype=np.intp)]
-    for rank, (pose, bound_nats) in enumerate(zip(poses, np.asarray(best_nats, dtype=np.float64), strict=True), 1):
+    for rank, (pose, bound_nats) in enumerate(zip(poses, np.asarray(bounds_nats, dtype=np.float64), strict=True), 1):
         plot_sensor(ax, pose)[0].set_label(f"{rank}: {bound_nats:.0f} nats at most")
         ax.annotate(
             f"{rank}", pose[:2], xytext=(7, 7), textcoords="offset points", fontsize=8, fontweight="bold",

@@ -43,7 +43,8 @@ FRAME: Final = "#6B7078"
 
 # Line colours of the chains, in order, repeated for more chains.
 CHAINS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-HATCH: Final = "//////"
+
+HATCH: Final = "//////"  # pattern over unobserved cells
 PAD_IN: Final = 0.08  # margin around the panels of a figure, inches
 
 
@@ -60,9 +61,9 @@ def lab_to_srgb(lab: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1.0 / 2.4) - 0.055))
 
 
-def probability_colors(n: int = 256) -> NDArray[np.float64]:
-    """Return the colours of wall probability 0 to 1 in ``n`` equal steps, sRGB in [0, 1], shape (n, 3)."""
-    steps = np.linspace(0.0, 1.0, n)[:, None]
+def probability_colors(n_colors: int = 256) -> NDArray[np.float64]:
+    """Return the colours of wall probability 0 to 1 in equal steps, sRGB in [0, 1], shape (n_colors, 3)."""
+    steps = np.linspace(0.0, 1.0, n_colors)[:, None]
     return lab_to_srgb((1.0 - steps) * np.array(PAPER_LAB) + steps * np.array(INK_LAB))
 
 
@@ -96,10 +97,10 @@ def _colormap(name: str, colors: Iterable[Any]) -> "ListedColormap":
     return ListedColormap(list(colors), name=f"bayesmap.{name}")
 
 
-def _blend_lab(*ends: tuple[float, float, float]) -> NDArray[np.float64]:
-    """Return 256 colours in equal steps along straight lines in CIELAB, sRGB in [0, 1], shape (256, 3)."""
-    steps, knots = np.linspace(0.0, len(ends) - 1.0, 256), np.arange(len(ends))
-    return lab_to_srgb(np.stack([np.interp(steps, knots, channel) for channel in np.array(ends).T], axis=1))
+def _blend_lab(*knots_lab: tuple[float, float, float]) -> NDArray[np.float64]:
+    """Return 256 colours in equal steps along straight lines between CIELAB colours, sRGB in [0, 1], (256, 3)."""
+    steps, knots = np.linspace(0.0, len(knots_lab) - 1.0, 256), np.arange(len(knots_lab))
+    return lab_to_srgb(np.stack([np.interp(steps, knots, channel) for channel in np.array(knots_lab).T], axis=1))
 
 
 def draw_colormap() -> "ListedColormap":

@@ -108,12 +108,12 @@ def plot_region_coverage(ax: Axes, score: "TrajectoryScore") -> None:
 
 def errors_figure(score: "TrajectoryScore") -> Figure:
     """Return a figure of the distributions of both errors, and of coverage if the trajectory has covariances."""
-    panels = 2 if score.region is None else 3
+    panels = 2 if score.region_probability is None else 3
     figure = palette.blank_figure(3.4 * panels, 3.4)
     axes = figure.subplots(1, panels)
     plot_distribution(axes[0], 100 * score.errors.translation_m, "error of translation [cm]")
     plot_distribution(axes[1], np.degrees(score.errors.rotation_rad), "error of rotation [degrees]")
-    if score.region is not None:
+    if score.region_probability is not None:
         plot_region_coverage(axes[2], score)
     for ax in axes:
         ax.spines[["top", "right"]].set_visible(False)

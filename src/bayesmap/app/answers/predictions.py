@@ -4,8 +4,6 @@ A virtual scan is what a robot's laser would read at a pose. `VirtualScanPredict
 while a hand moves the pose. `compare_beam` compares one real reading with its prediction.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from dataclasses import asdict
@@ -167,7 +165,7 @@ def _finite(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def _surface_offset(result: Result, predictor: Predictor, stops: StopMixture, range_m: float) -> SurfaceOffset | None:
+def _surface_offset(result: Result, predictor: Predictor, stops: "StopMixture", range_m: float) -> SurfaceOffset | None:
     """Return a reading in the frame of the surface at which its beam most probably stopped; None if none is near."""
     surfaces = result.surfaces
     if surfaces is None:

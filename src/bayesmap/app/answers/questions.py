@@ -161,9 +161,7 @@ def rank_views(result: Result, generation: int) -> tuple[Views, Buffers]:
 
 
 def _free_lattice(document: Document, mean: Floats, observed: Mask) -> tuple[Floats, float]:
-    """Return poses at the centres of free cells, at most `MAX_VIEWS`, (P, 3), and their spacing in metres.
-    Raises `BadInput` if no cell is known to be free.
-    """
+    """Return poses at centres of free cells, up to `MAX_VIEWS`, (P, 3), and their spacing, metres; else `BadInput`."""
     grid = document.grid
     free = observed & (mean < MAX_P_STOP)
     if not free.any():

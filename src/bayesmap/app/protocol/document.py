@@ -5,8 +5,6 @@ are declared here once, and the page's TypeScript types are generated from them.
 which `bayesmap.app.protocol.wire` reads. A page gets the limits of the numbers when it connects.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
@@ -171,7 +169,7 @@ class Document(Settings):
         uncertain = self.pose_sigma > 0 or self.heading_sigma > 0
         return self.simulated and self.sampler in CHAIN_METHODS and uncertain
 
-    def equals_except(self, other: Document, names: Iterable[str]) -> bool:
+    def equals_except(self, other: "Document", names: Iterable[str]) -> bool:
         """Return whether two documents differ at most in the named fields."""
         return self == replace(other, **{name: getattr(self, name) for name in names})
 
@@ -180,11 +178,11 @@ class Document(Settings):
         cells = ((self.grid.cell_at(sensor.x, sensor.y), sensor.id) for sensor in self.sensors)
         return {cell: sensor_id for cell, sensor_id in cells if cell is not None}
 
-    def on_grid(self, grid: Grid) -> Document:
+    def on_grid(self, grid: Grid) -> "Document":
         """Return the document on another grid, without walls; this document if the grid is equal."""
         return self if self.grid == grid else replace(self, grid=grid).without_walls()
 
-    def with_resolution(self, resolution_m: float) -> Document:
+    def with_resolution(self, resolution_m: float) -> "Document":
         """Return the document of a log with another cell size. Raises `Refused` for no log, or for too many cells."""
         bounds = self.source.bounds
         if self.source.kind != "log" or bounds is None:
@@ -197,13 +195,13 @@ class Document(Settings):
             raise Refused(f"cells of {resolution_m:g} m make a map of {size}", remedy)
         return self.on_grid(grid)
 
-    def with_scans_used(self, n_used: int | None) -> Document:
+    def with_scans_used(self, n_used: int | None) -> "Document":
         """Return the document of a log with the map of its first scans (None: all). Raises `Refused` for no log."""
         if self.source.kind != "log":
             raise Refused("only of a log some of the scans can be left out")
         return replace(self, scans_used=None if n_used is None or n_used >= self.source.scans else n_used)
 
-    def without_walls(self) -> Document:
+    def without_walls(self) -> "Document":
         """Return the document with an empty map of its size."""
         return replace(self, walls=empty_walls(self.grid))
 

@@ -4,8 +4,6 @@
 words of the page. `encode_frame` writes a message of the library, with its arrays, as text or as one binary frame.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import struct

@@ -370,9 +370,7 @@ class FittedModel(NamedTuple):
 
 
 def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, FittedModel]:
-    """Fit sensor and prior to the readings in short steps, and return the fitted model.
-    The document gives the kind of cells and the seed. ``show`` gets the pilot after every sweep.
-    """
+    """Fit sensor and prior to the readings in short steps; ``show`` gets the pilot after every sweep."""
     prior = BUILT_IN[document.cells]()
     start_sensor = initial_sensor(prior, document.grid.resolution)
     model = replace(scene.model(prior), sensor=start_sensor, hit_depth=prior.hit_depth)

@@ -30,7 +30,7 @@ class HitCountMap(FixedMap):
 class HitCounts:
     """Hits and passes in the first n scans of a log, for any n. The counts for one n are updated to those for the next.
     A beam without a return is left out: only the posterior can estimate how far it got. Beams of the table are traced
-    at least to their readings. Of A beams a scan, beam ``s * A + a`` is beam a of scan s.
+    at least to their readings. Beams are numbered scan by scan: beam a of scan s is ``s * A + a``, with A beams a scan.
     """
 
     def __init__(self, scans: Scans, table: BeamTable) -> None:
@@ -77,7 +77,7 @@ def stop_probabilities(counts: NDArray[np.int64], prior: CellPrior, p_wall: floa
     For reflectivities and surfaces, it is the share of beams that stop. For walls, it is OctoMap's, given ``p_wall``.
     """
     hits, passes = counts.astype(np.float64)
-    if hasattr(prior, "a") and hasattr(prior, "b"):  # the beta prior of reflectivities
+    if hasattr(prior, "a") and hasattr(prior, "b"):  # reflectivities and surfaces have a beta prior
         return hit_ratio(hits, passes, {"a": prior.a, "b": prior.b})
     p_start = float(np.clip(p_wall, 1e-4, 1 - 1e-4))  # log odds must be finite
     return odds_map(hits, passes, {"p_hit": P_HIT, "p_miss": P_MISS, "p_start": p_start})
@@ -87,21 +87,21 @@ def hit_count_map(scans: Scans, grid: Grid) -> HitCountMap:
     """Compute the hit-count map of scans at their poses, from at most `MAX_SCANS` of them."""
     from bayesmap.kernels.rays import count_hits
 
-    counts = count_hits(thin_scans(scans), grid)
+    counts = count_hits(evenly_chosen_scans(scans), grid)
     hits, passes = (np.asarray(n, dtype=np.float64).reshape(grid.shape) for n in counts)
     observed = hits + passes > 0
     return HitCountMap(np.where(observed, octomap_map(hits, passes, {}), 0.5), observed)
 
 
-def thin_scans(scans: Scans) -> Scans:
+def evenly_chosen_scans(scans: Scans) -> Scans:
     """Return at most `MAX_SCANS` of the scans, evenly chosen."""
     return scans.select(evenly_spaced_indices(len(scans), MAX_SCANS))
 
 
 def grow_grid(grid: Grid, scans: Scans) -> Grid:
-    """Return the grid, enlarged by whole cells to cover the scans, or unchanged if that makes too many cells."""
-    # The first cell and the end of the enlarged grid, in cells of the given grid. 1e-6 absorbs rounding.
-    covering = Grid.covering(thin_scans(scans), grid.resolution, margin_m=0.0)
+    """Return the grid, enlarged by whole cells to cover `evenly_chosen_scans`, unless that makes too many cells."""
+    # The first cell and the end of the enlarged grid, in cells of the given grid.
+    covering = Grid.covering(evenly_chosen_scans(scans), grid.resolution, margin_m=0.0)
     offset_cells = (np.array(covering.origin) - grid.origin) / grid.resolution
     low = np.minimum(np.floor(offset_cells + 1e-6), 0).astype(int)  # 1e-6: against rounding
     high = np.maximum(np.ceil(offset_cells + covering.shape - 1e-6), grid.shape).astype(int)

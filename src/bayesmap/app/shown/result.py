@@ -4,8 +4,6 @@ An `Estimate` is what a method knows so far; each method has a class of its own.
 document, and is what pages show. `bayesmap.app.shown.verdicts` judges it.
 """
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -176,11 +174,11 @@ class Estimate(ABC):
         """The mean poses of the scans, (S, 3), if poses were inferred."""
         return None
 
-    def as_run(self, result: Result) -> Run:
+    def as_run(self, result: "Result") -> Run:
         """Return the estimate as a run, as `bayesmap.infer` does. Raises `BadInput` if there are no kept draws."""
         raise BadInput("there are no draws to save; run inference first")
 
-    def write_map(self, target: Path, result: Result) -> list[Path]:
+    def write_map(self, target: Path, result: "Result") -> list[Path]:
         """Write the map for map_server; return the files."""
         from bayesmap.io.exports import known_cells
         from bayesmap.io.ros.maps import write_map

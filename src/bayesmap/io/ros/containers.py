@@ -113,6 +113,7 @@ def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
 
 
 def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
+    """Return the call that opens a recording with rosbags' reader of its container."""
     if container == "rosbag1":
         from rosbags.rosbag1 import Reader
 
@@ -275,9 +276,7 @@ def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
 
 
 def _unpacked_copy(path: Path, stack: ExitStack, on_damage: OnDamage) -> Path:
-    """Return a temporary unpacked copy of a file, or the file itself if it is not compressed.
-    If the file is damaged and ``on_damage`` returns, the copy ends before the damage.
-    """
+    """Return an unpacked temporary copy of a file, up to any damage, or the file itself if it is not compressed."""
     with path.open("rb") as file:
         kind = compression_of(file.read(4))  # as long as the longest magic
         if kind is None:

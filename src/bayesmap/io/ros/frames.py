@@ -261,9 +261,7 @@ class FrameTree:
         """Return the frames up to the common ancestor, and down from it, without the ancestor; None without one."""
         up, down = self.path_to_root(fixed), self.path_to_root(sensor)
         common = next((frame for frame in down if frame in up), None)
-        if common is None:
-            return None
-        return up[: up.index(common)], down[: down.index(common)][::-1]
+        return None if common is None else (up[: up.index(common)], down[: down.index(common)][::-1])
 
     def chain(self, fixed: str, sensor: str) -> Chain | None:
         """Return the chain from one frame to another; None if nothing connects them."""

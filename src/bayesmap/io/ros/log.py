@@ -239,9 +239,7 @@ def _sort_by_time(
 
 
 def _ray_times_ns(stamps_ns: NDArray[np.int64], scans: list[LaserMessage], account: LogAccount) -> NDArray[np.int64]:
-    """Return the time of each ray, (S, A). A missing ray gets the time of the last ray of its scan.
-    Without ``deskew``, return the times of the first rays, (S, 1).
-    """
+    """Return the time of each ray, (S, A), missing rays as late as the last; without ``deskew`` the first's, (S, 1)."""
     if not account.options.deskew:
         return stamps_ns[:, None]
     beams = np.array([scan.layout.beams for scan in scans])

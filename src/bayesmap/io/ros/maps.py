@@ -91,6 +91,7 @@ def brightness(image: "ImageLike | Image") -> NDArray[np.float64]:
 
 
 def _check_thresholds(occupied_thresh: float, free_thresh: float) -> None:
+    """Raise `BadInput` unless the thresholds are probabilities in ascending order."""
     if not (0 <= free_thresh < occupied_thresh <= 1):
         values = f"free_thresh {free_thresh!r} and occupied_thresh {occupied_thresh!r}"
         raise BadInput(f"map: thresholds must be 0 <= free_thresh < occupied_thresh <= 1, got {values}")
@@ -288,12 +289,14 @@ def _read_entries(path: Path) -> dict[str, Any]:
 
 
 def _entry(path: Path, entries: Mapping[str, Any], key: str) -> Any:
+    """Return an entry of a map file. Raises `BadInput` if it is missing or empty."""
     if entries.get(key) in (None, ""):
         raise BadInput(f"{path}: has no '{key}:'; a map needs image, resolution and origin")
     return entries[key]
 
 
 def _entry_number(path: Path, entries: Mapping[str, Any], key: str, default: float | None = None) -> float:
+    """Return a number of a map file, or the default if it is missing. Raises `BadInput` for anything else."""
     if default is not None and key not in entries:
         return default
     value = _entry(path, entries, key)
@@ -304,6 +307,7 @@ def _entry_number(path: Path, entries: Mapping[str, Any], key: str, default: flo
 
 
 def _origin(path: Path, entries: Mapping[str, Any]) -> tuple[float, float]:
+    """Return x and y of the map's lower-left corner, metres. Raises `BadInput` for a rotated map."""
     value = _entry(path, entries, "origin")
     try:
         x, y, yaw = (float(part) for part in value)

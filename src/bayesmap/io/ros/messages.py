@@ -204,6 +204,7 @@ def _content(types: Any, topic: Topic, data: bytes) -> Any:
 
 @cache
 def _ros_types(encoding: str) -> Any:
+    """Return the types of messages of ROS 1 or ROS 2, by the encoding of a recording."""
     if encoding != "ros1":
         return get_typestore(Stores.ROS2_HUMBLE)
     store = get_typestore(Stores.ROS1_NOETIC)

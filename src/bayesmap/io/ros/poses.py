@@ -157,6 +157,7 @@ def conflict_notes(recording: Recording, tree: FrameTree, frame: str, sensor: st
 
 
 def _choice_remedy(recording: Recording, topics: Iterable[str]) -> str:
+    """Return the remedy that lists topics among which the user must choose."""
     return f"choose one with --pose-topic: {', '.join(str(recording.topics[name]) for name in topics)}"
 
 
@@ -259,6 +260,7 @@ def no_poses_error(path: str, tree: FrameTree, sensor: str, pose_topics: list[To
 
 
 def _frames_in_words(tree: FrameTree) -> str:
+    """Return the names of the known frames in words, at most 30."""
     frames = tree.frames()
     listed = ", ".join(frames[:30]) + (f" and {len(frames) - 30} more" if len(frames) > 30 else "")
     return f"known frames: {listed}" if frames else "no frame is known"

@@ -69,6 +69,7 @@ def _find_static_contradiction(name: str, samples: Samples) -> Contradiction | N
 
 
 def _poses_differ(first: PoseNumbers, second: PoseNumbers) -> bool:
+    """Return whether two poses differ by more than rounding."""
     return not poses_agree(first, second, EQUAL_TOLERANCE)
 
 

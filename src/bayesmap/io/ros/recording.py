@@ -417,6 +417,7 @@ def sqlite_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records
 
 
 def _sqlite_connections(select: Callable[[str], Any]) -> Iterator[Connection]:
+    """Yield the connections of an SQLite recording, given a function that runs a query."""
     definitions: dict[str, tuple[str, str]] = {}
     if select("SELECT 1 FROM sqlite_master WHERE name = 'message_definitions'").fetchone():
         columns = "topic_type, encoding, encoded_message_definition"

@@ -170,9 +170,7 @@ def write_occupancy_grid(
     path: str | os.PathLike[str], occupancy: ArrayLike, grid: Grid, observed: ArrayLike | None = None, *,
     stamp_s: float | None = None, **thresholds: Any,
 ) -> Path:  # fmt: skip
-    """Write a map as the one message of a recording, an OccupancyGrid. Returns the path.
-    Arguments and errors are as in `bayesmap.io.ros.maps.in_percent` and `Recorder`.
-    """
+    """Write a recording of one OccupancyGrid. Arguments and errors are those of `in_percent` and `Recorder`."""
     from bayesmap.io.ros.maps import in_percent
 
     cells = in_percent(occupancy, grid, observed, **thresholds)

@@ -176,6 +176,7 @@ def parse_floats(kind: str, words: list[bytes], first: int) -> Floats:
 
 
 def _check_odometry(words: list[bytes]) -> None:
+    """Raise `MalformedLine` unless the words of an ODOM line are right."""
     if len(words) != 10:
         raise MalformedLine(f"ODOM has {len(words)} fields where 10 are needed")
     if not np.isfinite(parse_floats("ODOM", [*words[1:8], words[9]], 1)).all():

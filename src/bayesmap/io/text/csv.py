@@ -107,6 +107,7 @@ def live_rows(name: str, lines: Iterable[tuple[int, bytes]], reject: Reject, opt
 
 
 def _need_poses(account: LogAccount, table: "_Table") -> None:
+    """Raise `BadInput` if a table has no poses, unless the user accepts that."""
     if not (table.has_poses or account.options.without_poses):
         raise account.no_poses_error("the table has no columns x, y and yaw")
 
@@ -248,6 +249,7 @@ def is_header(line: bytes) -> bool:
 
 
 def _names(line: bytes, delimiter: bytes) -> list[str]:
+    """Return the names of a header's columns, in lower case and without quotes."""
     return [word.decode("utf-8", "replace").strip().strip('"').lower() for word in line.split(delimiter)]
 
 
@@ -264,6 +266,7 @@ def _columns_of(names: list[str]) -> list[str]:
 
 
 def _parse_setting(path: str, line: int, key: str, text: bytes) -> list[float]:
+    """Return the numbers of a setting of a table."""
     # Commas are decimal points if every word has one, as in spreadsheets of some languages.
     words = re.split(rb"[\s;]+", text.strip())
     if (key != "angles" or len(words) > 1) and all(map(_DECIMAL_COMMA.fullmatch, words)):

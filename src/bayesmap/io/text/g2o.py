@@ -26,7 +26,7 @@ from bayesmap.space.planar import Floats, between, between_jacobians, compose, i
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from bayesmap.poses.graph import PoseGaussian
+    from bayesmap.poses.graph import PoseStudentT
     from bayesmap.poses.trajectory import InferredTrajectory
 
 
@@ -182,7 +182,7 @@ def slam_edges(trajectory: "InferredTrajectory") -> Edges:
     )
 
 
-def _covariance_growth(gaussian: "PoseGaussian") -> float:
+def _covariance_growth(gaussian: "PoseStudentT") -> float:
     """Return the geometric mean ratio of relative covariances with common errors to those without."""
     from bayesmap.poses.graph import relative_covariances
 

@@ -88,6 +88,7 @@ def file_chunks(path: str | os.PathLike[str], where_in_file: Callable[[], str] =
 
 
 def _decompressed(file: BinaryIO) -> Iterator[bytes]:
+    """Yield the bytes of a file in pieces, unpacked if it is gzipped."""
     data = file.read(CHUNK_BYTES)
     if not data.startswith(GZIP_MAGIC):
         while data:
@@ -141,6 +142,7 @@ def printable(word: bytes) -> str:
 
 
 def _is_number(word: bytes) -> bool:
+    """Return whether a word is a number; Python would also take underscores between digits."""
     try:
         float(word)
     except ValueError:

@@ -315,6 +315,7 @@ def odometry_of(reader: Reader, header: Header) -> tuple[str, float | None, Floa
 
 
 def _checked(pose: Floats) -> Floats:
+    """Return a pose. Raises `UnreadableObject` if it is impossible."""
     if not (np.isfinite(pose).all() and np.abs(pose).max() < MAX_COORDINATE_M):
         raise UnreadableObject(f"has the pose {pose.tolist()}")
     return pose

@@ -37,7 +37,7 @@ GridScansArrays = devices.struct_like(GridScans, Vec2ds, wp.float64, Int32s, Int
 
 
 @wp.kernel
-def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArrays, pyramid: Pyramid):
+def stamp_points(first: int, bands: int, grids: GridScansArrays, scans: ScanArrays, pyramid: Pyramid):
     """One thread per band of a grid: set each cell to the largest of all stamps that cover it."""
     # If the points of neighbouring beams lie further apart on one surface than ``spacing_m``, there are several stamps
     # from the beam towards the next.
@@ -54,20 +54,20 @@ def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArra
         scan = grids.scan[entry]
         pose = grids.poses[entry]
         cosine, sine = wp.cos(pose[2]), wp.sin(pose[2])
-        for beam in range(scene.points.shape[1]):
-            if scene.kind[scan, beam] == NO_POINT:
+        for beam in range(scans.points.shape[1]):
+            if scans.kind[scan, beam] == NO_POINT:
                 continue
             # Stamps from this point towards the next, if both lie on one surface.
-            point = scene.points[scan, beam]
+            point = scans.points[scan, beam]
             to_next = wp.vec2f()
             stamps = int(1)
-            next_beam = neighbour(beam, 1, scene.beams[scan], scene.full_circle[scan])
+            next_beam = neighbour(beam, 1, scans.beams[scan], scans.full_circle[scan])
             if next_beam >= 0:
-                if scene.kind[scan, next_beam] != NO_POINT:
-                    apart = wp.length(scene.points[scan, next_beam] - point)
-                    if apart > grids.spacing_m and apart < max_gap(scene.step[scan], wp.length(point)):
+                if scans.kind[scan, next_beam] != NO_POINT:
+                    apart = wp.length(scans.points[scan, next_beam] - point)
+                    if apart > grids.spacing_m and apart < max_gap(scans.step[scan], wp.length(point)):
                         stamps = 1 + int(apart / grids.spacing_m)
-                        to_next = (scene.points[scan, next_beam] - point) / wp.float32(stamps)
+                        to_next = (scans.points[scan, next_beam] - point) / wp.float32(stamps)
             for k in range(stamps):
                 # The cell of the stamp's middle.
                 px = wp.float64(point[0] + wp.float32(k) * to_next[0])

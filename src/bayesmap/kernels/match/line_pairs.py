@@ -18,7 +18,7 @@ import warp as wp
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Floats, Int32s, Ints, Singles, Vec3ds
-from bayesmap.kernels.match import scan_geometry as scenes
+from bayesmap.kernels.match import scan_geometry as kinds
 from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, neighbour, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
@@ -71,26 +71,26 @@ def angle_in_turns(vector: wp.vec2f) -> float:
 
 
 @wp.func
-def beam_towards(scene: ScanArrays, scan: int, point: wp.vec2f) -> int:
+def beam_towards(scans: ScanArrays, scan: int, point: wp.vec2f) -> int:
     """Return the beam of a scan that points towards a point, or -1 if there is none."""
-    bins = scene.beam_of_angle.shape[1]
+    bins = scans.beam_of_angle.shape[1]
     number = int((angle_in_turns(point) + 0.5) * float(bins))
-    return scene.beam_of_angle[scene.layout[scan], wp.clamp(number, 0, bins - 1)]
+    return scans.beam_of_angle[scans.layout[scan], wp.clamp(number, 0, bins - 1)]
 
 
 @wp.func
-def nearest_point(scene: ScanArrays, scan: int, point: wp.vec2f, reach_m: float) -> int:
+def nearest_point(scans: ScanArrays, scan: int, point: wp.vec2f, reach_m: float) -> int:
     """Return the beam of the nearest point of a scan within ``reach_m``, or -1 if there is none, or `OUT_OF_VIEW`."""
-    middle = beam_towards(scene, scan, point)
+    middle = beam_towards(scans, scan, point)
     if middle < 0:
         return OUT_OF_VIEW
     distance = wp.length(point)
-    step = scene.step[scan]
+    step = scans.step[scan]
     u = wp.min(1.0, reach_m / wp.max(distance, 1.0e-6))
     # No point within reach is further off by angle than asin(u) <= u + (pi / 2 - 1) u^3.
     side_beams = wp.min(MAX_SIDE_BEAMS, int((u + 0.5708 * u * u * u) / step) + 1)
-    beams = scene.beams[scan]
-    is_circle = scene.full_circle[scan] != 0
+    beams = scans.beams[scan]
+    is_circle = scans.full_circle[scan] != 0
     closest_sq = reach_m * reach_m
     nearest = int(-1)
     # Search outwards. Points of equal distance count in the order of beams, so that the lower side takes ties.
@@ -104,7 +104,7 @@ def nearest_point(scene: ScanArrays, scan: int, point: wp.vec2f, reach_m: float)
         if low < 0 and is_circle:
             low += beams
         if low >= 0:
-            d_sq = wp.length_sq(scene.points[scan, low] - point)
+            d_sq = wp.length_sq(scans.points[scan, low] - point)
             if d_sq <= closest_sq:
                 closest_sq = d_sq
                 nearest = low
@@ -112,7 +112,7 @@ def nearest_point(scene: ScanArrays, scan: int, point: wp.vec2f, reach_m: float)
         if high >= beams and is_circle:
             high -= beams
         if k > 0 and high < beams:
-            d_sq = wp.length_sq(scene.points[scan, high] - point)
+            d_sq = wp.length_sq(scans.points[scan, high] - point)
             if d_sq < closest_sq:
                 closest_sq = d_sq
                 nearest = high
@@ -120,16 +120,16 @@ def nearest_point(scene: ScanArrays, scan: int, point: wp.vec2f, reach_m: float)
 
 
 @wp.func
-def neighbour_distance(scene: ScanArrays, scan: int, beam: int) -> float:
+def neighbour_distance(scans: ScanArrays, scan: int, beam: int) -> float:
     """Return the spacing of returns on a surface: the distance of the nearer neighbouring point, 0.1 to 2 m."""
-    beams = scene.beams[scan]
+    beams = scans.beams[scan]
     nearest = float(2.0)
-    point = scene.points[scan, beam]
+    point = scans.points[scan, beam]
     for side in range(2):
-        nearby = neighbour(beam, 2 * side - 1, beams, scene.full_circle[scan])
+        nearby = neighbour(beam, 2 * side - 1, beams, scans.full_circle[scan])
         if nearby >= 0:
-            if scene.kind[scan, nearby] != scenes.NO_POINT:
-                nearest = wp.min(nearest, wp.length(scene.points[scan, nearby] - point))
+            if scans.kind[scan, nearby] != kinds.NO_POINT:
+                nearest = wp.min(nearest, wp.length(scans.points[scan, nearby] - point))
     return wp.max(nearest, 0.1)
 
 
@@ -149,7 +149,7 @@ def rotation_of(pose: wp.vec3d) -> wp.mat22f:
 
 @wp.func
 def sum_over_points(
-    scene: ScanArrays, weights: Float32Rows, source: int, target: int, pose: wp.vec3d, rules: PairRulesArrays
+    scans: ScanArrays, weights: Float32Rows, source: int, target: int, pose: wp.vec3d, rules: PairRulesArrays
 ) -> NormalEquations:
     """Pair a source scan's points, at its pose in the target's frame, with a target scan, and sum the equations."""
     turn = rotation_of(pose)
@@ -158,24 +158,24 @@ def sum_over_points(
     slack = wp.mat33f()
     gradient = wp.vec3f()
     totals = Totals()
-    for beam in range(0, scene.kind.shape[1], rules.stride):
-        if scene.kind[source, beam] == scenes.NO_POINT:
+    for beam in range(0, scans.kind.shape[1], rules.stride):
+        if scans.kind[source, beam] == kinds.NO_POINT:
             continue
-        arm = turn * scene.points[source, beam]  # from the source's laser to its point, in the target's axes
+        arm = turn * scans.points[source, beam]  # from the source's laser to its point, in the target's axes
         point = arm + shift
-        partner = nearest_point(scene, target, point, rules.reach_m)
+        partner = nearest_point(scans, target, point, rules.reach_m)
         if partner == OUT_OF_VIEW:
             continue
         totals[SEEN] += 1.0
         if partner < 0:
             continue
-        offset = point - scene.points[target, partner]
-        has_normal = scene.kind[source, beam] == scenes.WITH_NORMAL
-        partner_has_normal = scene.kind[target, partner] == scenes.WITH_NORMAL
+        offset = point - scans.points[target, partner]
+        has_normal = scans.kind[source, beam] == kinds.WITH_NORMAL
+        partner_has_normal = scans.kind[target, partner] == kinds.WITH_NORMAL
         if has_normal and partner_has_normal:
             # Both points have normals: e is the offset along their mean, with the derivative ``across``.
-            normal = turn * scene.normals[source, beam]
-            partner_normal = scene.normals[target, partner]
+            normal = turn * scans.normals[source, beam]
+            partner_normal = scans.normals[target, partner]
             if wp.dot(normal, partner_normal) < rules.min_cosine:
                 continue
             mean_normal = (normal + partner_normal) / wp.length(normal + partner_normal)
@@ -187,7 +187,7 @@ def sum_over_points(
             across = wp.vec3f(mean_normal[0], mean_normal[1], mean_normal[1] * arm[0] - mean_normal[0] * arm[1])
             hessian += wp.outer(weight * across, across)
             gradient += (weight * across) * e
-            slack_weight = weight * 0.25 * (scene.spread[source, beam] + scene.spread[target, partner])
+            slack_weight = weight * 0.25 * (scans.spread[source, beam] + scans.spread[target, partner])
             along = wp.vec3f(-mean_normal[1], mean_normal[0], wp.dot(mean_normal, arm))
             slack += wp.outer(slack_weight * along, along)
             totals[COST] += weight * e * e
@@ -195,7 +195,7 @@ def sum_over_points(
             totals[MATCHED] += 1.0
         elif not has_normal and not partner_has_normal:
             # Neither point has a normal: both components of the offset count.
-            spacing = 0.5 * neighbour_distance(scene, target, partner)
+            spacing = 0.5 * neighbour_distance(scans, target, partner)
             if spacing > MAX_SPACING_M:
                 continue
             w = 1.0 / (1.0 + wp.length_sq(offset) / (rules.scale_m * rules.scale_m + spacing * spacing))
@@ -206,7 +206,7 @@ def sum_over_points(
     return NormalEquations(hessian, slack, gradient, totals)
 
 
-class LinearizedPairs(NamedTuple):
+class LinearisedPairs(NamedTuple):
     """The `NormalEquations` of P pairs of scans, in double precision."""
 
     hessian: Floats  # H, (P, 3, 3)
@@ -216,41 +216,41 @@ class LinearizedPairs(NamedTuple):
 
 
 Mat33ds = wp.array(dtype=wp.mat33d)
-LinearizedPairsArrays = devices.struct_like(LinearizedPairs, Mat33ds, Mat33ds, Vec3ds, Totals64s)
+LinearisedPairsArrays = devices.struct_like(LinearisedPairs, Mat33ds, Mat33ds, Vec3ds, Totals64s)
 
 
 @wp.kernel
 def store_equations(
-    first: int, scene: ScanArrays, weights: Float32Rows, source: Int32s, target: Int32s, relative: Vec3ds,
-    rules: PairRulesArrays, out: LinearizedPairsArrays,
+    first: int, scans: ScanArrays, weights: Float32Rows, source: Int32s, target: Int32s, relative: Vec3ds,
+    rules: PairRulesArrays, out: LinearisedPairsArrays,
 ):  # fmt: skip
     """One thread per pair of scans: compute their equations."""
     pair = first + wp.tid()
-    equations = sum_over_points(scene, weights, source[pair], target[pair], relative[pair], rules)
+    equations = sum_over_points(scans, weights, source[pair], target[pair], relative[pair], rules)
     out.hessian[pair] = symmetric(equations.hessian)
     out.slack[pair] = symmetric(equations.slack)
     out.gradient[pair] = wp.vec3d(equations.gradient)
     out.totals[pair] = Totals64(equations.totals)
 
 
-def linearize_pairs(
+def linearise_pairs(
     geometry: Any, weights: Singles | None, source: Ints, target: Ints, relative: Floats, rules: PairRules,
     threads: int | None = None,
-) -> LinearizedPairs:  # fmt: skip
-    """Linearize P pairs of scans; ``relative`` are the poses of the sources in the frames of the targets, (P, 3)."""
+) -> LinearisedPairs:  # fmt: skip
+    """Linearise P pairs of scans; ``relative`` are the poses of the sources in the frames of the targets, (P, 3)."""
     device, count = geometry.device, len(source)
     weights = equal_weights(geometry) if weights is None else weights
-    shapes = dict.fromkeys(LinearizedPairs._fields, (count,))
-    out = devices.pack(LinearizedPairsArrays, device, **shapes)
+    shapes = dict.fromkeys(LinearisedPairs._fields, (count,))
+    out = devices.pack(LinearisedPairsArrays, device, **shapes)
     packed_rules = devices.pack(PairRulesArrays, "cpu", **rules._asdict())
     inputs = [scan_arrays(geometry, rules.stride), weights, source, target, relative, packed_rules, out]
     devices.launch(store_equations, count, inputs, device, threads)
-    return LinearizedPairs(out.hessian.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy())
+    return LinearisedPairs(out.hessian.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy())
 
 
 @wp.kernel
 def count_matches(
-    first: int, scene: ScanArrays, offsets: Int32s, target: Int32s, relative: Vec3ds, rules: PairRulesArrays,
+    first: int, scans: ScanArrays, offsets: Int32s, target: Int32s, relative: Vec3ds, rules: PairRulesArrays,
     counts: Float32Rows,
 ):  # fmt: skip
     """One thread per scan: count the scans with which each beam is paired, weighted by how well it fits."""
@@ -259,18 +259,18 @@ def count_matches(
         other = target[pair]
         turn = rotation_of(relative[pair])
         shift = wp.vec2f(float(relative[pair][0]), float(relative[pair][1]))
-        for beam in range(0, scene.kind.shape[1], rules.stride):
-            if scene.kind[source, beam] == scenes.NO_POINT:
+        for beam in range(0, scans.kind.shape[1], rules.stride):
+            if scans.kind[source, beam] == kinds.NO_POINT:
                 continue
-            point = turn * scene.points[source, beam] + shift
-            partner = nearest_point(scene, other, point, rules.reach_m)
-            if partner < 0 or scene.kind[source, beam] != scene.kind[other, wp.max(partner, 0)]:
+            point = turn * scans.points[source, beam] + shift
+            partner = nearest_point(scans, other, point, rules.reach_m)
+            if partner < 0 or scans.kind[source, beam] != scans.kind[other, wp.max(partner, 0)]:
                 continue
-            offset = point - scene.points[other, partner]
+            offset = point - scans.points[other, partner]
             error_sq = wp.length_sq(offset)
-            if scene.kind[source, beam] == scenes.WITH_NORMAL:
-                normal = scene.normals[other, partner]
-                if wp.dot(turn * scene.normals[source, beam], normal) < rules.min_cosine:
+            if scans.kind[source, beam] == kinds.WITH_NORMAL:
+                normal = scans.normals[other, partner]
+                if wp.dot(turn * scans.normals[source, beam], normal) < rules.min_cosine:
                     continue
                 e = wp.dot(normal, offset)
                 error_sq = e * e
@@ -282,7 +282,7 @@ def match_counts(
     geometry: Any, offsets: Ints, target: Ints, relative: Floats, rules: PairRules, threads: int | None = None
 ) -> Singles:
     """Count the partners of every ``stride``-th beam, (S, B); scan s has the pairs offsets[s] to offsets[s + 1]."""
-    scans, scene = len(geometry), scan_arrays(geometry, rules.stride)
+    n_scans, scans = len(geometry), scan_arrays(geometry, rules.stride)
     packed_rules = devices.pack(PairRulesArrays, "cpu", **rules._asdict())
-    inputs = [scene, offsets, target, relative, packed_rules, (scans, geometry.beams)]
-    return np.asarray(devices.launch(count_matches, scans, inputs, geometry.device, threads)[0])
+    inputs = [scans, offsets, target, relative, packed_rules, (n_scans, geometry.beams)]
+    return np.asarray(devices.launch(count_matches, n_scans, inputs, geometry.device, threads)[0])

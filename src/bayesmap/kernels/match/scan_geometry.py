@@ -15,6 +15,12 @@ NO_POINT, POINT, WITH_NORMAL = (wp.constant(wp.uint8(k)) for k in (0, 1, 2))  # 
 NOWHERE_M = wp.constant(wp.float32(1.0e6))  # where beams without a point end: too far to be nearest to any point
 MAX_FITS = wp.constant(3)  # fits tried per beam, each twice as wide as the one before
 MAX_NEIGHBOURS = wp.constant(40)  # beams to either side, this one included
+# Largest gap between neighbouring points of one surface: metres plus spacings of beams head-on, or standard deviations.
+GAP_M, GAP_SPACINGS, GAP_SIGMAS = (wp.constant(wp.float32(x)) for x in (0.05, 3.5, 5.0))
+# Largest distance of the two neighbours on either side that are always tried: metres, standard deviations, or spacings.
+NEAR_M, NEAR_SIGMAS, NEAR_SPACINGS = (wp.constant(wp.float32(x)) for x in (0.5, 20.0, 2.2))
+# Largest variance across a straight wall, in those of a point, of the first and of wider fits; and over that along it.
+FIRST_VARIANCES, WIDER_VARIANCES, MAX_RATIO = (wp.constant(wp.float32(x)) for x in (4.0, 1.5, 0.04))
 
 
 @wp.struct
@@ -27,10 +33,10 @@ class ScanArrays:
     spread: Float32Rows
     beam_of_angle: Int32Rows
     layout: Int32s  # row of beam_of_angle of each scan
-    beams: Int32s
-    step: Float32s
+    beams: Int32s  # number of beams of each scan
+    step: Float32s  # angle between neighbouring beams of each scan, radians
     full_circle: Int32s
-    stride: int  # every so many-th point is paired
+    stride: int  # pair every ``stride``-th point
 
 
 class LineFit(NamedTuple):
@@ -53,25 +59,25 @@ def neighbour(beam: int, steps: int, beams: int, full_circle: int) -> int:
 
 @wp.func
 def max_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
-    """Return how far apart the points of two neighbouring beams on one surface may lie, ``away`` from the laser."""
-    return wp.float32(0.05) + wp.float32(3.5) * (step_rad * away)  # metres, and multiples of the spacing head-on
+    """Return the largest gap between points of neighbouring beams on one surface, ``away`` metres from the laser."""
+    return GAP_M + GAP_SPACINGS * (step_rad * away)
 
 
 @wp.kernel
 def scan_points(
-    first: int, ranges: Float64Rows, angles: Float64Rows, nearest: wp.float64, farthest: wp.float64, scene: ScanArrays
+    first: int, ranges: Float64Rows, angles: Float64Rows, min_m: wp.float64, max_m: wp.float64, scans: ScanArrays
 ):
     """One thread per scan: compute where its beams ended, in its frame; ``angles`` has one row for all, or one each."""
     scan = first + wp.tid()
     row = wp.min(scan, angles.shape[0] - 1)
     for beam in range(ranges.shape[1]):
         r = ranges[scan, beam]
-        scene.kind[scan, beam] = NO_POINT
-        scene.points[scan, beam] = wp.vec2f(NOWHERE_M, NOWHERE_M)
-        if r > nearest and r < farthest:  # false for NaN and for either infinity
+        scans.kind[scan, beam] = NO_POINT
+        scans.points[scan, beam] = wp.vec2f(NOWHERE_M, NOWHERE_M)
+        if r > min_m and r < max_m:  # false for NaN and for either infinity
             x = wp.float32(r * wp.cos(angles[row, beam]))
-            scene.points[scan, beam] = wp.vec2f(x, wp.float32(r * wp.sin(angles[row, beam])))
-            scene.kind[scan, beam] = POINT
+            scans.points[scan, beam] = wp.vec2f(x, wp.float32(r * wp.sin(angles[row, beam])))
+            scans.kind[scan, beam] = POINT
 
 
 @wp.struct
@@ -85,25 +91,25 @@ class PointSums:
 
 @wp.func
 def sum_neighbours(
-    scene: ScanArrays, scan: int, beam: int, reach: wp.float32, gap: wp.float32, farthest: wp.float32
+    scans: ScanArrays, scan: int, beam: int, reach: wp.float32, gap: wp.float32, near: wp.float32
 ) -> PointSums:
     """Sum the offsets of consecutive points to both sides: no two further apart than ``gap``, all within ``reach``."""
-    # The next two points to either side may lie beyond the reach, up to ``farthest``.
-    point = scene.points[scan, beam]
+    # The next two points to either side may lie beyond the reach, up to ``near``.
+    point = scans.points[scan, beam]
     sums = PointSums()
     sums.count = 1.0
     for side in range(2):
         last = point
         for k in range(1, MAX_NEIGHBOURS):
-            other_beam = neighbour(beam, wp.where(side == 0, -k, k), scene.beams[scan], scene.full_circle[scan])
+            other_beam = neighbour(beam, wp.where(side == 0, -k, k), scans.beams[scan], scans.full_circle[scan])
             if other_beam < 0:
                 break
-            if scene.kind[scan, other_beam] == NO_POINT:
+            if scans.kind[scan, other_beam] == NO_POINT:
                 break
-            other = scene.points[scan, other_beam]
+            other = scans.points[scan, other_beam]
             offset = other - point
             distance = wp.length(offset)
-            if wp.length(other - last) > gap or distance > farthest or (k > 2 and distance > reach):
+            if wp.length(other - last) > gap or distance > near or (k > 2 and distance > reach):
                 break
             sums.count += 1.0
             sums.offset += offset
@@ -113,28 +119,28 @@ def sum_neighbours(
 
 
 @wp.kernel
-def scan_normals(first: int, scene: ScanArrays, reach_m: wp.float32, noise_m: wp.float32):
+def scan_normals(first: int, scans: ScanArrays, reach_m: wp.float32, noise_m: wp.float32):
     """One thread per scan: fit the line through each point's neighbours along the wall, by least squares.
     Neighbours are consecutive beams without a gap, at first within ``reach_m``. The reach is doubled as long as the
     wall stays straight within ``noise_m``. A piece whose direction the noise hides has no normal. ``spread`` is the
     variance of the normal's angle per variance of a point: one over the sum of squared distances along the line.
     """
     scan = first + wp.tid()
-    step_rad = scene.step[scan]
-    for beam in range(scene.points.shape[1]):
-        scene.normals[scan, beam] = wp.vec2f(wp.float32(0.0), wp.float32(0.0))
-        scene.spread[scan, beam] = wp.float32(0.0)
-        if scene.kind[scan, beam] == NO_POINT:
+    step_rad = scans.step[scan]
+    for beam in range(scans.points.shape[1]):
+        scans.normals[scan, beam] = wp.vec2f(wp.float32(0.0), wp.float32(0.0))
+        scans.spread[scan, beam] = wp.float32(0.0)
+        if scans.kind[scan, beam] == NO_POINT:
             continue
-        point = scene.points[scan, beam]
+        point = scans.points[scan, beam]
         away = wp.length(point)
         apart = step_rad * away  # between neighbouring beams on a wall seen head-on
-        # Limits of a fit: the gap between neighbouring points, and the distance from the beam's point, metres.
-        gap = wp.max(max_gap(step_rad, away), wp.float32(5.0) * noise_m)
-        farthest = wp.max(wp.max(wp.float32(0.5), wp.float32(20.0) * noise_m), wp.float32(2.2) * apart)
+        # Limits of a fit: the gap between neighbouring points, and the distance of the two neighbours, metres.
+        gap = wp.max(max_gap(step_rad, away), GAP_SIGMAS * noise_m)
+        near = wp.max(wp.max(NEAR_M, NEAR_SIGMAS * noise_m), NEAR_SPACINGS * apart)
         reach = reach_m
         for fit in range(MAX_FITS):
-            sums = sum_neighbours(scene, scan, beam, reach, gap, farthest)
+            sums = sum_neighbours(scans, scan, beam, reach, gap, near)
             if sums.count < 3.0:
                 break
             # Eigenvalues of the scatter matrix (xx, xy; xy, yy), along the wall and across.
@@ -144,24 +150,24 @@ def scan_normals(first: int, scene: ScanArrays, reach_m: wp.float32, noise_m: wp
             root = wp.sqrt(wp.max(wp.float32(0.0), (xx - yy) * (xx - yy) * wp.float32(0.25) + xy * xy))
             along = (xx + yy) * wp.float32(0.5) + root
             across = wp.max((xx + yy) * wp.float32(0.5) - root, wp.float32(0.0))
-            # Is the piece as straight as the noise lets it be, and long enough beside its thickness?
-            is_straight = across < sums.count * wp.float32(4.0) * noise_m * noise_m
+            # The piece must be as straight as the noise lets it be, and long enough beside its thickness.
+            is_straight = across < sums.count * FIRST_VARIANCES * noise_m * noise_m
             if fit > 0:
-                is_straight = is_straight and across < sums.count * wp.float32(1.5) * noise_m * noise_m
+                is_straight = is_straight and across < sums.count * WIDER_VARIANCES * noise_m * noise_m
             if not is_straight:
                 break
             reach = reach * wp.float32(2.0)
-            if across >= wp.float32(0.04) * along:
+            if across >= MAX_RATIO * along:
                 continue  # noise hides the direction of so short a piece: a longer one may show it
             turn = wp.float32(0.5) * wp.atan2(wp.float32(2.0) * xy, xx - yy)
             normal = wp.vec2f(-wp.sin(turn), wp.cos(turn))
             if normal[0] * point[0] + normal[1] * point[1] > wp.float32(0.0):
                 normal = -normal  # towards the laser
-            scene.normals[scan, beam] = normal
-            scene.spread[scan, beam] = wp.float32(1.0) / wp.max(along, wp.float32(1.0e-6))
-    for beam in range(scene.beams[scan]):
-        if scene.spread[scan, beam] > wp.float32(0.0):
-            scene.kind[scan, beam] = WITH_NORMAL
+            scans.normals[scan, beam] = normal
+            scans.spread[scan, beam] = wp.float32(1.0) / wp.max(along, wp.float32(1.0e-6))
+    for beam in range(scans.beams[scan]):
+        if scans.spread[scan, beam] > wp.float32(0.0):
+            scans.kind[scan, beam] = WITH_NORMAL
 
 
 def points_and_normals(
@@ -173,14 +179,14 @@ def points_and_normals(
     the limits are points. ``fans`` is a `bayesmap.poses.scan_geometry.Fans`.
     """
     device = devices.resolve(device)
-    scans, beams = ranges_m.shape
-    points, normals = (wp.empty((scans, beams), dtype=wp.vec2f, device=device) for _ in range(2))
-    kind = wp.empty((scans, beams), dtype=wp.uint8, device=device)
-    spread = wp.empty((scans, beams), dtype=wp.float32, device=device)
-    scene = _pack_fans(fans, device, points=points, normals=normals, kind=kind, spread=spread)
-    devices.launch(scan_points, scans, [ranges_m, angles_rad, limits.min_m, limits.max_m, scene], device, threads)
-    devices.launch(scan_normals, scans, [scene, fit.reach_m, fit.noise_m], device, threads)
-    return scene
+    n_scans, beams = ranges_m.shape
+    points, normals = (wp.empty((n_scans, beams), dtype=wp.vec2f, device=device) for _ in range(2))
+    kind = wp.empty((n_scans, beams), dtype=wp.uint8, device=device)
+    spread = wp.empty((n_scans, beams), dtype=wp.float32, device=device)
+    scans = _pack_fans(fans, device, points=points, normals=normals, kind=kind, spread=spread)
+    devices.launch(scan_points, n_scans, [ranges_m, angles_rad, limits.min_m, limits.max_m, scans], device, threads)
+    devices.launch(scan_normals, n_scans, [scans, fit.reach_m, fit.noise_m], device, threads)
+    return scans
 
 
 def _pack_fans(fans: Any, device: str, **fields: Any) -> Any:

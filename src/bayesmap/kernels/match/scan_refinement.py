@@ -89,14 +89,14 @@ class JobSums:
 
 @wp.func
 def sum_fixed_scans(
-    scene: ScanArrays, weights: Float32Rows, jobs: RefinementArrays, job: int, pose: wp.vec3d, rules: PairRulesArrays
+    scans: ScanArrays, weights: Float32Rows, jobs: RefinementArrays, job: int, pose: wp.vec3d, rules: PairRulesArrays
 ) -> JobSums:
     """Sum over the pairs of a job's moving scan, at a pose, with its fixed scans."""
     total = JobSums()
     for entry in range(jobs.offsets[job], jobs.offsets[job + 1]):
         frame = jobs.other_poses[entry]
         relative = pose_between(frame, pose)
-        equations = sum_over_points(scene, weights, jobs.scans[job], jobs.others[entry], relative, rules)
+        equations = sum_over_points(scans, weights, jobs.scans[job], jobs.others[entry], relative, rules)
         turn = turn_of(frame[2])
         total.hessian += turn * symmetric(equations.hessian) * wp.transpose(turn)
         total.slack += turn * symmetric(equations.slack) * wp.transpose(turn)
@@ -113,7 +113,7 @@ def step_size(step: wp.vec3d) -> wp.float64:
 
 @wp.kernel
 def refine(
-    first: int, scene: ScanArrays, weights: Float32Rows, jobs: RefinementArrays, schedule: ConvergenceArrays,
+    first: int, scans: ScanArrays, weights: Float32Rows, jobs: RefinementArrays, schedule: ConvergenceArrays,
     out: RefinedScansArrays,
 ):  # fmt: skip
     """One thread per job: minimise the cost of prior and pairs, with a reach and a scale that shrink step by step."""
@@ -129,9 +129,9 @@ def refine(
         reach = schedule.reach_m[0] * wp.pow(schedule.reach_m[1] / schedule.reach_m[0], share)
         scale = schedule.scale_m[0] * wp.pow(schedule.scale_m[1] / schedule.scale_m[0], share)
         sparse = wp.where(share < 1.0, 2, 1)
-        rules = PairRulesArrays(reach, scale, schedule.min_cosine, sparse * scene.stride)
+        rules = PairRulesArrays(reach, scale, schedule.min_cosine, sparse * scans.stride)
         gain = wp.float64(sparse) / (schedule.sigma_m * schedule.sigma_m * (count + wp.float64(1.0)))
-        sums = sum_fixed_scans(scene, weights, jobs, job, pose, rules)
+        sums = sum_fixed_scans(scans, weights, jobs, job, pose, rules)
         # The information of the pairs is H (H + s^2 S)^-1 H: about H if the slack S is small, and never negative.
         ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
         trusted = sums.hessian * wp.inverse(sums.hessian + sums.slack * (schedule.sigma_m * schedule.sigma_m) + ridge)

@@ -14,7 +14,7 @@ def invert_on_pattern(
     _first: int, begin: Int32s, row: Int32s, lower: Float64s, pivot: Float64s, column_sums: Float64s, inverse: Float64s
 ):
     """One thread: compute Z_rj = -sum_k L_kj Z_rk and Z_jj = 1 / D_j - sum_k L_kj Z_kj, from the last column on."""
-    # j: column; a, b: its entries below the diagonal; p: entry of Z in the column row[a].
+    # j: column; a, b: its entries below the diagonal, in rows k = row[a] and r = row[b]; p: entry of Z in column k.
     columns = begin.shape[0] - 1
     for back in range(columns):
         j = columns - 1 - back
@@ -44,5 +44,7 @@ def selected_inverse(begin: Ints, row: Ints, lower: Floats, pivot: Floats) -> Fl
     them with a unit diagonal, ``pivot`` the diagonal of D, (n,). The pattern must be closed under elimination.
     """
     devices.start()
-    sums = (int(np.diff(begin).max(initial=1)),)
-    return np.asarray(devices.launch(invert_on_pattern, 1, [begin, row, lower, pivot, sums, row.shape], "cpu")[1])
+    column_sums_shape = (int(np.diff(begin).max(initial=1)),)
+    inputs = [begin, row, lower, pivot, column_sums_shape, row.shape]  # `launch` makes output arrays of the two shapes
+    _, inverse = devices.launch(invert_on_pattern, 1, inputs, "cpu")
+    return np.asarray(inverse)

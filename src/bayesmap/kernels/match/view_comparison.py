@@ -17,23 +17,23 @@ wp.set_module_options({"enable_backward": False})
 
 
 @wp.func
-def is_near_wall(scene: ScanArrays, scan: int, beam: int, point: wp.vec2f, near_m: float) -> int:
+def is_near_wall(scans: ScanArrays, scan: int, beam: int, point: wp.vec2f, near_m: float) -> int:
     """Return 1 if a point is near the wall between the points of a beam and the next beam, else 0."""
-    beams = scene.beams[scan]
+    beams = scans.beams[scan]
     start = beam
     if start < 0:
-        if scene.full_circle[scan] == 0:
+        if scans.full_circle[scan] == 0:
             return 0
         start += beams
-    end = neighbour(start, 1, beams, scene.full_circle[scan])
+    end = neighbour(start, 1, beams, scans.full_circle[scan])
     if end < 0:
         return 0
-    if scene.kind[scan, start] == scenes.NO_POINT or scene.kind[scan, end] == scenes.NO_POINT:
+    if scans.kind[scan, start] == scenes.NO_POINT or scans.kind[scan, end] == scenes.NO_POINT:
         return 0
-    start_point = scene.points[scan, start]
-    wall = scene.points[scan, end] - start_point
+    start_point = scans.points[scan, start]
+    wall = scans.points[scan, end] - start_point
     length = wp.length(wall)
-    if length > max_gap(scene.step[scan], wp.length(start_point)):
+    if length > max_gap(scans.step[scan], wp.length(start_point)):
         return 0
     to_point = point - start_point
     share = wp.clamp(wp.dot(to_point, wall) / wp.max(length * length, 1.0e-9), 0.0, 1.0)
@@ -42,7 +42,7 @@ def is_near_wall(scene: ScanArrays, scan: int, beam: int, point: wp.vec2f, near_
 
 @wp.kernel
 def compare_views(
-    first: int, scene: ScanArrays, source: Int32s, target: Int32s, relative: Vec3ds, near_m: float, clear_m: float,
+    first: int, scans: ScanArrays, source: Int32s, target: Int32s, relative: Vec3ds, near_m: float, clear_m: float,
     counts: Int32Rows,
 ):  # fmt: skip
     """One thread per pair: count the points of the source that match the target, that contradict it, and all points."""
@@ -52,20 +52,20 @@ def compare_views(
     turn = rotation_of(relative[pair])
     shift = wp.vec2f(float(relative[pair][0]), float(relative[pair][1]))
     matched, contradicting, total = int(0), int(0), int(0)
-    for beam in range(0, scene.kind.shape[1], scene.stride):
-        if scene.kind[source[pair], beam] == scenes.NO_POINT:
+    for beam in range(0, scans.kind.shape[1], scans.stride):
+        if scans.kind[source[pair], beam] == scenes.NO_POINT:
             continue
         total += 1
-        point = turn * scene.points[source[pair], beam] + shift
+        point = turn * scans.points[source[pair], beam] + shift
         # A match: near a point, or near the wall between two points.
-        if nearest_point(scene, other, point, near_m) >= 0:
+        if nearest_point(scans, other, point, near_m) >= 0:
             matched += 1
             continue
-        middle = beam_towards(scene, other, point)
+        middle = beam_towards(scans, other, point)
         if middle < 0:
             continue
-        near_walls = is_near_wall(scene, other, middle - 1, point, near_m)
-        near_walls += is_near_wall(scene, other, middle, point, near_m)
+        near_walls = is_near_wall(scans, other, middle - 1, point, near_m)
+        near_walls += is_near_wall(scans, other, middle, point, near_m)
         if near_walls > 0:
             matched += 1
             continue
@@ -73,9 +73,9 @@ def compare_views(
         beyond = wp.length(point) + clear_m
         through = int(0)
         for step in range(-1, 2):
-            nearby = neighbour(middle, step, scene.beams[other], scene.full_circle[other])
+            nearby = neighbour(middle, step, scans.beams[other], scans.full_circle[other])
             if nearby >= 0:
-                if scene.kind[other, nearby] != scenes.NO_POINT and wp.length(scene.points[other, nearby]) > beyond:
+                if scans.kind[other, nearby] != scenes.NO_POINT and wp.length(scans.points[other, nearby]) > beyond:
                     through += 1
         if through == 3:
             contradicting += 1
@@ -97,8 +97,8 @@ def view_counts(
     geometry: Any, source: Ints, target: Ints, relative: Floats, agreement: Agreement, threads: int | None = None
 ) -> Ints:
     """Count each source's points that match, that contradict, and all, (P, 3); ``relative`` poses: in target frames."""
-    scene, pairs = scan_arrays(geometry, max(1, geometry.beams // agreement.beams)), len(source)
-    inputs = [scene, source, target, relative, agreement.near_m, agreement.clear_m, (pairs, 3)]
+    scans, pairs = scan_arrays(geometry, max(1, geometry.beams // agreement.beams)), len(source)
+    inputs = [scans, source, target, relative, agreement.near_m, agreement.clear_m, (pairs, 3)]
     return np.asarray(devices.launch(compare_views, pairs, inputs, geometry.device, threads)[0])
 
 
