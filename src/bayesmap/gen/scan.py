@@ -134,8 +134,8 @@ class Scan(Vectorised):
 
             def rescore() -> tuple[Trace, Weight]:
                 diffs = (Diff.unknown_change(step_args[0]), Diff.no_change(step_args[1]))
-                new, weight, _, _ = EmptyRequest().edit(key, inner, diffs)
-                return new.with_args(None), weight
+                rescored, rescored_weight, _, _ = EmptyRequest().edit(key, inner, diffs)
+                return rescored.with_args(None), rescored_weight
 
             branches = [lambda: (inner, jnp.zeros(())), lambda: (new, weight), rescore]
             return (*jax.lax.switch(jnp.sign(t - i) + 1, branches), None)

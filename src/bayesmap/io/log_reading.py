@@ -29,17 +29,17 @@ NO_POSES_REMEDY = "bayesmap slam --no-odometry needs no poses, if scans come at 
 class LogOptions:
     """A user's options for reading a log, documented in `bayesmap.io.logs.read_log`."""
 
-    no_return: float | None = None
-    skip_bad_lines: bool = False
-    max_range_m: float | None = None
-    scan_topic: str | None = None
+    no_return: float | None = None  # number that means no return; None: found in the log
+    skip_bad_lines: bool = False  # leave out malformed lines and messages
+    max_range_m: float | None = None  # longer readings are no return; None: found in the log
+    scan_topic: str | None = None  # topics and frame of a recording; None: found in it
     pose_topic: str | None = None
     fixed_frame: str | None = None
-    deskew: bool = False
-    thin_m: float = 0.0
-    laser: Pose | None = None
-    without_poses: bool = False
-    trajectory: Trajectory | None = None
+    deskew: bool = False  # give each beam the pose of its own time
+    thin_m: float = 0.0  # minimum distance between two scans, metres
+    laser: Pose | None = None  # pose of the laser on the robot; None: as the log says
+    without_poses: bool = False  # read a log that has no poses
+    trajectory: Trajectory | None = None  # poses instead of the log's
 
 
 @dataclass(frozen=True)

@@ -174,6 +174,7 @@ def _propose_merges(matches: Closures, islands: KeyPath, rule: MergeRule) -> Ite
         selected = np.nonzero((pairs == (earlier, later)).all(axis=1))[0]
         pair_motions = motions[selected]
         # Compare motions by the positions to which they bring the keys: a turn about a far origin moves them much.
+        # moved[i, j] is key j under motion i; the diagonal has each key under its own motion.
         moved = compose(pair_motions[:, None], poses[later_keys[selected]][None])
         off_m = np.hypot(*np.moveaxis((moved - moved.diagonal().T[None])[..., :2], -1, 0))
         turns_rad = np.abs(wrap_angle(pair_motions[:, None, 2] - pair_motions[None, :, 2]))

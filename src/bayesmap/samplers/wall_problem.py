@@ -102,8 +102,8 @@ def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -
     from bayesmap.kernels.device import resolve
     from bayesmap.kernels.walls.table import trace
 
-    walls = BinaryWalls.of(model.cells, "this method")
+    prior = BinaryWalls.of(model.cells, "this method")
     device = resolve(device)
-    walls.probabilities(model.grid)  # shapes are checked before the long work
+    prior.probabilities(model.grid)  # shapes are checked before the long work
     table = trace(model.scans, model.grid, model.sensor, hit_depth=model.hit_depth, device=device)
-    return WallProblem(table, walls, model.scans.poses, device, threads)
+    return WallProblem(table, prior, model.scans.poses, device, threads)

@@ -209,7 +209,8 @@ def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Gr
         cells[cells > 100] = np.nan
     else:
         cells = _by_thresholds(grey if negate else 1 - grey, mode, occupied, free)
-        cells[~opaque & (mode == "scale")] = np.nan
+        if mode == "scale":
+            cells[~opaque] = np.nan
     grid = Grid(shape=(cells.shape[1], cells.shape[0]), resolution=resolution, origin=_origin(path, entries))
     return rows_to_map(cells) / 100, grid
 

@@ -156,7 +156,7 @@ def refine(
 def refine_scans(
     geometry: Any, refinement: Refinement, convergence: Convergence, threads: int | None = None
 ) -> RefinedScans:
-    """Refine the poses of J scans."""
+    """Refine the poses of the J scans of a job each, by points of other scans that stay where they are."""
     device, count = geometry.device, len(refinement.scans)
     jobs = devices.pack(RefinementArrays, device, **vars(refinement))
     schedule = devices.pack(ConvergenceArrays, device, **vars(convergence))
